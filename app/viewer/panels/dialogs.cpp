@@ -72,8 +72,10 @@ void unsaved_dialog(Frame& frame)
     const bool asks = ui.held || (waits && !ui.after_save);
     if (!asks || !begin_dialog(frame, "Unsaved changes", true, 420, true))
         return;
-    wrapped(fmt::format("Your changes to {} are not saved in a project.",
-                        frame.state.document.session.file.filename().string()));
+    const std::filesystem::path &project = frame.state.project, &part = frame.state.document.session.file;
+    wrapped(project.empty()
+                ? fmt::format("Your changes to {} are not saved in a project.", part.filename().string())
+                : fmt::format("Your changes to the project {} are not saved.", project.filename().string()));
     if (!ui.held)
         muted(frame, fmt::format("{} has been read and takes its place.", waits->filename().string()));
     const auto then = [&](bool without_saving) {

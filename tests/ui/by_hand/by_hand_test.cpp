@@ -437,6 +437,26 @@ TEST_F(ByHand, AnotherFileWhileThereIsUnsavedWork)
                     [&](const Json& r) { return r["part"]["file"] == (folder / "channel.step").string(); });
 }
 
+TEST_F(ByHand, UnsavedWorkIsCalledByItsProjectIfItHasOne)
+{
+    fs::copy_file(fs::path(SPIA_SOURCE_DIR) / "assets/parts/dome.obj", folder / "dome.obj");
+    start_with((folder / "dome.obj").string());
+    pick_all();
+    hands->keys("ctrl+q");
+    hands->see_part_of_line("Your changes to dome.obj are not saved");
+    hands->click("Cancel");
+    hands->see_no("Unsaved changes");
+    hands->keys("ctrl+s");
+    hands->see("Save the project");
+    hands->click("Save");
+    hands->see_that("saved work", [](const Json& r) { return r["project"]["unsaved"] == false; });
+    hands->keys("ctrl+z");
+    hands->see_that("unsaved work", [](const Json& r) { return r["project"]["unsaved"] == true; });
+    hands->keys("ctrl+q");
+    hands->see_part_of_line("Your changes to the project dome.spia are not saved");
+    hands->click("Cancel");
+}
+
 TEST_F(ByHand, TheDialogOfFilesSaysWhatItLeavesOutAndBeginsAnewEachTime)
 {
     Channel::write(folder / "channel.step");
