@@ -357,7 +357,8 @@ void surface_step(Frame& frame)
         if (session.lifted || session.options.patches) // say a run was cancelled before this step
             fit_editor(frame, fit_choice(session.options));
         else
-            muted(frame, frame.model.busy() ? "The grid is being made." : "Make the grid first.");
+            muted(frame, frame.state.job.running ? fmt::format("Running now: {}.", frame.state.job.title)
+                                                 : "Make the grid first.");
         return;
     }
     fit_editor(frame, fit_choice(session.options));

@@ -60,7 +60,9 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
         return result;
     }
     if (!session.part || !made.lifted) {
-        result.empty = session.blank && state.job.running ? "The grid is being made." : what_is_missing(session);
+        result.empty = session.blank && state.job.running
+                           ? fmt::format("There is no quad mesh yet. Running now: {}.", state.job.title)
+                           : what_is_missing(session);
         return result;
     }
     const QuadGrid& lifted = made.lifted->lifted;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/core.h>
 #include <iterator>
 
 #include "app/viewer/model/picking/handles.h"
@@ -80,8 +81,9 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache, double pixels)
     const Session& session = state.document.session;
     const LaterResults made = surface_shown(state);
     if (!session.part || !made.surface) {
-        result.empty = !session.part                        ? "The NURBS surface appears here once it is fitted."
-                       : session.blank && state.job.running ? "The surface is being made."
+        result.empty = !session.part ? "The NURBS surface appears here once it is fitted."
+                       : session.blank && state.job.running
+                           ? fmt::format("There is no surface yet. Running now: {}.", state.job.title)
                        : session.lifted || session.options.patches
                            ? "Fit the surface to see it with its control net."
                            : "The NURBS surface needs the quad mesh on the part first.";

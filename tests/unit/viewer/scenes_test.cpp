@@ -75,6 +75,11 @@ TEST_F(Scenes, WithoutWhatTheyShowTheySayWhatToDo)
         EXPECT_EQ(is_there(View::blank), stage > Stage::solve);
         EXPECT_EQ(is_there(View::quads), stage > Stage::lift);
         EXPECT_FALSE(is_there(View::surface));
+        early.job.running = true;
+        early.job.title = "Unfolding step by step";
+        for (const View view : {View::quads, View::surface})
+            if (const std::string words = scene(view, early, fresh).empty; now.blank && !words.empty())
+                EXPECT_TRUE(words.ends_with("Running now: Unfolding step by step.")) << words;
     }
 }
 
