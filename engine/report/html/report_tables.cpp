@@ -1,10 +1,12 @@
 #include "engine/report/html/report_tables.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 #include <numbers>
 
 #include "engine/exchange/text/text_encoding.h"
+#include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/report/figures/face_values.h"
@@ -299,27 +301,55 @@ std::string bend_table(const Session& session, const ReportReader& reader)
 }
 
 /// What the tools were taken to do, one row a condition.
-std::string process_rows(const ProcessConditions& process, const InUnit& in)
+std::string tool_rows(const AppliedProcess& process, const ProcessConditions& given, const InUnit& in)
 {
+    const auto newton = [](double force) { return force < 100 ? significant(force) : grouped(force, 0); };
+    const auto length = [&](double mm) { return fmt::format("{} {}", in.round(mm), in.word); };
     std::string rows;
-    for (const ContactRegion& c : process.contact)
+    for (size_t k = 0; k < process.contact.size(); ++k) {
+        const AppliedContact& c = process.contact[k];
+        const auto& force = given.contact[k].force_N;
         rows += row("Contact: " + c.name,
-                    fmt::format("{} on {} faces, friction {:.3g} on {}",
-                                c.force_N ? significant(*c.force_N) + " N" : significant(*c.pressure_MPa) + " MPa",
-                                c.faces.size(), c.friction, c.sides == 2 ? "both sides" : "one side"));
+                    fmt::format("{}{} MPa on {} of {}, friction {:.3g} on {}, holds back up to {} N",
+                                force ? newton(*force) + " N, " : "", significant(c.pressure_MPa),
+                                counted(c.faces, "face", "faces"), in.area(c.area_mm2), c.friction,
+                                c.sides == 2 ? "both sides" : "one side", newton(c.friction_force_N)));
+    }
     if (process.contact.empty())
         rows += row("Friction", "none");
-    for (const Drawbead& bead : process.drawbeads)
-        rows += row("Drawbead: " + bead.name, significant(bead.force_N_mm) + " N/mm");
+    for (const AppliedBead& bead : process.drawbeads)
+        rows += row("Drawbead: " + bead.name,
+                    fmt::format("{} N/mm over {}", newton(bead.force_N_mm), length(bead.length_mm)));
     if (process.edge_restraint > 0)
-        rows +=
-            row("Outer edge", fmt::format("restrained with {:.3g} % of the lock force", 100 * process.edge_restraint));
-    for (const Pilot& pilot : process.pilots)
-        rows += row("Pilot: " + pilot.name, pilot.line.size() == 1 ? "a point is held" : "a curve is held");
-    for (const TailoredPiece& piece : process.tailored)
-        rows += row("Tailored piece: " + piece.name,
-                    fmt::format("{}, {}, {} faces", piece.material.name, in.text(piece.thickness), piece.faces.size()));
+        rows += row("Outer edge",
+                    fmt::format("held by {:.3g} % of the lock force of {} N/mm: {} N/mm over {}",
+                                100 * process.edge_restraint, newton(process.lock_force_N_mm),
+                                newton(process.edge_restraint * process.lock_force_N_mm), length(process.held_mm)));
+    for (const AppliedPilot& pilot : process.pilots)
+        rows += row("Pilot: " + pilot.name, pilot.places == 1 ? "a point is held" : "a curve is held");
     return rows;
+}
+
+/// What acts on the sheet, and what it is made of where it is not the same all over. Steps know no
+/// tools.
+std::string process_rows(const Session& session, const InUnit& in)
+{
+    const AppliedProcess process = applied_process(session);
+    std::string rows = session.options.steps ? row("Tools, friction", "none: the steps leave them out")
+                                             : tool_rows(process, session.options.flatten.process, in);
+    for (const AppliedPiece& piece : process.tailored)
+        rows +=
+            row("Tailored piece: " + piece.name, fmt::format("{}, {}, {}", piece.material, in.text(piece.thickness_mm),
+                                                             counted(piece.faces, "face", "faces")));
+    return rows;
+}
+
+/// "DIN 6935"
+std::string k_words(const KFactor& k)
+{
+    if (k.name == "din6935")
+        return "DIN 6935, by the inner radius over the thickness";
+    return k.one_value() ? k.name : "table " + std::filesystem::path(k.name).filename().string();
 }
 
 std::string assumptions(const Session& session, LengthUnit lengths)
@@ -345,7 +375,9 @@ std::string assumptions(const Session& session, LengthUnit lengths)
                                                ? ", perpendicular to the plane of the blank"
                                            : options.direction ? ", as given"
                                                                : ", found automatically"));
-    rows += process_rows(options.process, in);
+    if (session.options.k_factor)
+        rows += row("K factor of bends", k_words(*session.options.k_factor));
+    rows += process_rows(session, in);
     rows += row("Valid up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
                                            fixed(session.blank->report.trusted_strain, 2)));
     if (const auto& steps = session.options.steps)

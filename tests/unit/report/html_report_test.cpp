@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/report/figures/crack_verdict.h"
 #include "engine/report/figures/statistics.h"
@@ -242,6 +243,37 @@ TEST(HtmlReport, TheAssumptionsNameWhatWasRelaxedAndRepaired)
     says("Equations", "equilibrium of 37 vertices");
     says("Repairs of the mesh", "2 doubled faces were removed");
     says("Stamping direction", "as given");
+}
+
+TEST(HtmlReport, TheAssumptionsNameAllThatActsOnTheSheet)
+{
+    const ScratchFolder folder;
+    Session session = session_of(dome, Stage::solve);
+    ProcessConditions& process = session.options.flatten.process;
+    process.contact = {{"binder", {0, 1}, 2., {}, 0.12, 2}};
+    process.drawbeads = {{"bead", {{0, 0, 0}, {30, 40, 0}}, 25}};
+    process.edge_restraint = 0.25;
+    process.pilots = {{"pin", {{0, 0, 0}}}};
+    session.options.k_factor = constant_k(0.44);
+    const AppliedProcess applied = applied_process(session);
+    const auto has = [](const std::string& html, const std::string& name, const std::string& words) {
+        const size_t at = html.find("<tr><td>" + name + "</td><td>");
+        ASSERT_NE(at, std::string::npos) << name;
+        const std::string row = html.substr(at, html.find("</tr>", at) - at);
+        EXPECT_NE(row.find(words), std::string::npos) << row;
+    };
+    std::string html = report(folder / "r.html", session);
+    has(html, "Contact: binder", "2 MPa on 2 faces of ");
+    has(html, "Contact: binder", "friction 0.12 on both sides");
+    has(html, "Drawbead: bead", "25 N/mm over 50 mm");
+    has(html, "Outer edge", "held by 25 % of the lock force");
+    has(html, "Outer edge", fmt::format("{:.3g}", 0.25 * applied.lock_force_N_mm));
+    has(html, "Pilot: pin", "a point is held");
+    has(html, "K factor of bends", "0.44");
+    session.options.steps = BlankOfSteps{std::make_shared<UnfoldRun>(), false};
+    html = report(folder / "r.html", session);
+    has(html, "Tools, friction", "the steps leave them out");
+    EXPECT_EQ(html.find("Contact: binder"), std::string::npos);
 }
 
 TEST(HtmlReport, SaysWhatMakesTheResultPoorer)
