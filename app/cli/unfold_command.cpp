@@ -399,7 +399,9 @@ int unfold(const UnfoldArguments& arguments)
     options.thickness = flat_thickness(arguments.thickness, part);
     if (const std::string text = describe_thickness(arguments.thickness, part); !text.empty())
         say("  note: {}\n", text);
-    const BendMap map = find_bends(part.mesh);
+    BendMap map = find_bends(part.mesh);
+    NeutralFibre fibre = part_bends(part, options.thickness, wanted_k(arguments));
+    take_radii(fibre.zone, map);
     print_map(map);
     RunSteps done;
     try {
@@ -415,7 +417,6 @@ int unfold(const UnfoldArguments& arguments)
     if (arguments.polish)
         polished = polished_blank(part, run, options, findings);
     const PolishedBlank* both = polished ? &*polished : nullptr;
-    NeutralFibre fibre = part_bends(part, options.thickness, wanted_k(arguments));
     lay_anew(part.mesh, options, fibre, done.run);
     if (run.blank)
         add_sharp_folds(part, *run.blank, fibre.table);

@@ -412,4 +412,17 @@ std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map, bool
     return zones;
 }
 
+void take_radii(const std::vector<BendZone>& zones, BendMap& map)
+{
+    for (size_t b = 0; b < map.bends.size(); ++b) {
+        Bend& bend = map.bends[b];
+        const int label = map.label_of_bend(b);
+        for (const BendZone& zone : zones) {
+            const auto common = std::ranges::count_if(zone.face, [&](int f) { return map.label[f] == label; });
+            if (label >= 0 && 2 * common > bend.faces)
+                bend.radius = zone.radius;
+        }
+    }
+}
+
 } // namespace spia

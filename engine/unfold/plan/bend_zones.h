@@ -33,4 +33,8 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
 ///                  found there are folds
 std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map, bool of_solid = false);
 
+/// Gives the bends of a map the radii of the zones that they are: area over length and angle, by
+/// which find_bends() measures any band, is that of its chords.
+void take_radii(const std::vector<BendZone>& zones, BendMap& map);
+
 } // namespace spia

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "tests/support/bent_parts.h"
 #include "tests/support/plane_faces.h"
+#include "tests/support/profile.h"
 
 namespace spia {
 namespace {
@@ -50,6 +52,17 @@ TEST(BendZones, GoOverIntoTheSheetAlongTheirAxis)
                             [](const auto& s) { return s.kind == StatedSurface::Kind::cylinder; }),
               48);
     EXPECT_TRUE(stated_zones(cup, surface).empty());
+}
+
+TEST(BendZones, GiveBendsTheRadiusOfTheirCylinder)
+{
+    const TriMesh part =
+        shapes::extruded(shapes::Profile({0, 0}, 0).straight(50).bend(7.5, 1.2).straight(30), 40, 1000).mesh;
+    BendMap map = find_bends(part);
+    ASSERT_EQ(map.bends.size(), 1u);
+    EXPECT_LT(map.bends[0].radius, 7.495) << "that of chords";
+    take_radii(fitted_zones(part, map), map);
+    EXPECT_NEAR(map.bends[0].radius, 7.5, 1e-6);
 }
 
 } // namespace
