@@ -37,13 +37,14 @@ void print_items(const CadTree& tree)
 
 void print_solid(const SolidOrigin& solid)
 {
-    say("solid           {} faces, {:.6g} mm3; taken: {} skin{}\n", solid.faces, solid.volume, name(solid.skin),
+    const auto faces = [](int count) { return counted(count, "face", "faces"); };
+    say("solid           {}, {:.6g} mm3; taken: {} skin{}\n", faces(solid.faces), solid.volume, name(solid.skin),
         solid.skin == Skin::middle ? ", between both" : "");
     say("thickness       {:.6g} mm ({:.4g} to {:.4g} mm on 98 % of the skins)\n", solid.thickness, solid.least,
         solid.most);
-    say("outer skin      {} faces, {:.6g} mm2\n", solid.outer_faces, solid.outer_area);
-    say("inner skin      {} faces, {:.6g} mm2\n", solid.inner_faces, solid.inner_area);
-    say("rim             {} faces, {:.6g} mm2\n", solid.faces - solid.outer_faces - solid.inner_faces, solid.rim_area);
+    say("outer skin      {}, {:.6g} mm2\n", faces(solid.outer_faces), solid.outer_area);
+    say("inner skin      {}, {:.6g} mm2\n", faces(solid.inner_faces), solid.inner_area);
+    say("rim             {}, {:.6g} mm2\n", faces(solid.faces - solid.outer_faces - solid.inner_faces), solid.rim_area);
 }
 
 } // namespace
@@ -94,8 +95,8 @@ int info(const InfoArguments& arguments)
     say("genus           {}\n", number(doctor.genus));
     if (doctor.healthy()) {
         const Eigen::Vector3d size = part_figures(part).size;
-        say("part            {} triangles, {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm2\n", part.mesh.triangles(), size[0],
-            size[1], size[2], area(part.mesh));
+        say("part            {}, {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm2\n",
+            counted(part.mesh.triangles(), "triangle", "triangles"), size[0], size[1], size[2], area(part.mesh));
     }
     for (const std::string& note : part.notes)
         say("note            {}\n", note);

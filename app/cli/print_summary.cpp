@@ -40,7 +40,8 @@ void print_limits(const LimitsResult& limits, const PartFile& part)
         say("limits    no forming limit curve\n");
     for (const Zone zone : all_zones)
         if (const ZoneShare& share = limits.zones.share[size_t(zone)]; share.faces > 0)
-            say("          {:<18} {:>7} faces, {:5.1f} % of the area\n", name(zone), share.faces, 100 * share.share);
+            say("          {:<18} {:>7} {}, {:5.1f} % of the area\n", name(zone), share.faces,
+                share.faces == 1 ? "face" : "faces", 100 * share.share);
     print_spots(limits.zones, part);
     for (const std::string& note : limits.notes)
         say("  note: {}\n", note);
@@ -59,8 +60,8 @@ void print_summary(const Session& session)
     const FlattenResult& flat = *session.blank;
     const ResultFigures figures = result_figures(session);
     const Eigen::Vector2d size = figures.blank.sides();
-    say("part      {} triangles, {} boundary loops, {:.6g} mm2\n", session.part->mesh.triangles(),
-        figures.part.boundary_loops, figures.part.area);
+    say("part      {}, {}, {:.6g} mm2\n", counted(session.part->mesh.triangles(), "triangle", "triangles"),
+        counted(figures.part.boundary_loops, "boundary loop", "boundary loops"), figures.part.area);
     for (const std::string& line : describe(applied_process(session)))
         say("process   {}\n", line);
     if (flat.report.process_share < 1)
@@ -68,9 +69,9 @@ void print_summary(const Session& session)
     if (session.options.steps && !session.options.steps->polish)
         say("blank     {:.6g} x {:.6g} mm, {}\n", size[0], size[1], flat.report.reason);
     else
-        say("blank     {:.6g} x {:.6g} mm{}, {} energy and {} Newton steps, {}\n", size[0], size[1],
+        say("blank     {:.6g} x {:.6g} mm{}, {} energy and {}, {}\n", size[0], size[1],
             session.options.steps ? " of the steps, polished" : "", flat.report.energy.size(),
-            flat.report.newton.size(),
+            counted(int(flat.report.newton.size()), "Newton step", "Newton steps"),
             flat.report.whole()     ? "converged"
             : flat.report.converged ? fmt::format("converged ({})", name(flat.report.system))
                                     : "NOT converged");
@@ -121,10 +122,10 @@ void print_summary(const Session& session)
             joins.edges > 0 ? fmt::format("; {} of {} places are edges of the part", joins.edges, joins.places) : "");
     }
     if (const auto& fit = session.surface->fit; fit && !patches)
-        say("          {} {:.4g} mm{}, {} + {} knots inserted in {} rounds\n", fit->reached ? "within" : "NOT within",
+        say("          {} {:.4g} mm{}, {} + {} knots inserted in {}\n", fit->reached ? "within" : "NOT within",
             fit->tolerance,
             fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * session.surface->deviation.within()),
-            fit->knots_u, fit->knots_v, fit->rounds);
+            fit->knots_u, fit->knots_v, counted(fit->rounds, "round", "rounds"));
     if (session.deformed)
         say("deformed  control points moved by up to {:.4g} mm; deviations are those of the surface before\n",
             session.deformed->result.largest);

@@ -78,8 +78,8 @@ PartFile part_of(const UnfoldArguments& arguments)
 
 void print_map(const BendMap& map)
 {
-    say("part      {} regions, {} bends{}\n", map.regions.size(), map.bends.size(),
-        map.smoothed ? ", its noise smoothed for this" : "");
+    say("part      {}, {}{}\n", counted(int(map.regions.size()), "region", "regions"),
+        counted(int(map.bends.size()), "bend", "bends"), map.smoothed ? ", its noise smoothed for this" : "");
     constexpr size_t most = 12;
     for (size_t k = 0; k < std::min(most, map.bends.size()); ++k) {
         const Bend& bend = map.bends[k];
@@ -109,14 +109,15 @@ void print_states(const UnfoldRun& run, double diagonal)
         if (state.friction_share < 1)
             say("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
         if (state.overlap.places > 0)
-            say("          lies on itself at {} places, {} of them laid so by this step, first at {:.6g}, {:.6g}, {:.6g} mm\n",
-                state.overlap.places, state.overlap.landed, state.overlap.first[0], state.overlap.first[1],
-                state.overlap.first[2]);
+            say("          lies on itself at {}, {} of them laid so by this step, first at {:.6g}, {:.6g}, {:.6g} mm\n",
+                counted(state.overlap.places, "place", "places"), state.overlap.landed, state.overlap.first[0],
+                state.overlap.first[1], state.overlap.first[2]);
     }
     if (!run.blank)
         return;
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
-    say("blank     {:.6g} x {:.6g} mm, {} flipped triangles\n", size[0], size[1], run.flipped);
+    say("blank     {:.6g} x {:.6g} mm, {}\n", size[0], size[1],
+        counted(run.flipped, "flipped triangle", "flipped triangles"));
 }
 
 void print_blank(const char* what, const BlankFigures& blank)
@@ -197,13 +198,14 @@ KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, c
     const size_t from = redone_from(arguments.redo);
     KeptStates kept = read_unfold_states(states_file(arguments), part.mesh, options, steps);
     if (from > steps.size())
-        throw InputError(fmt::format("--redo {}: the script has {} steps", from, steps.size()));
+        throw InputError(
+            fmt::format("--redo {}: the script has {}", from, counted(int(steps.size()), "step", "steps")));
     if (from > kept.keep + 1)
-        throw InputError(fmt::format("--redo {}: only {} states of the earlier run hold, for {}; give --redo auto",
-                                     from, kept.keep, kept.why));
+        throw InputError(fmt::format("--redo {}: only {} of the earlier run, for {}; give --redo auto", from,
+                                     counted(int(kept.keep), "state holds", "states hold"), kept.why));
     if (from > 0)
         kept.keep = from - 1;
-    say("kept      {} state{} of an earlier run{}\n", kept.keep, kept.keep == 1 ? "" : "s",
+    say("kept      {} of an earlier run{}\n", counted(int(kept.keep), "state", "states"),
         from == 0 && !kept.why.empty() ? "; " + kept.why : "");
     return kept;
 }
@@ -273,8 +275,8 @@ std::vector<std::filesystem::path> keep_states(const UnfoldArguments& arguments,
 std::string describe_kept(const UnfoldArguments& arguments, const UnfoldRun& run)
 {
     return states_are_written(arguments, run)
-               ? fmt::format("; the states of the {} steps before it are kept: --redo auto goes on from there",
-                             run.states.size())
+               ? fmt::format("; the states of {} before it are kept: --redo auto goes on from there",
+                             counted(int(run.states.size()), "step", "steps"))
                : std::string();
 }
 
@@ -282,7 +284,8 @@ std::string describe_kept(const UnfoldArguments& arguments, const UnfoldRun& run
 [[noreturn]] void keep_cancelled(const UnfoldArguments& arguments, const PartFile& part, const BendMap& map,
                                  const FlattenOptions& options, const UnfoldScript& steps, const UnfoldRun& run)
 {
-    std::string what = fmt::format("cancelled after {} of {} steps", run.states.size(), steps.size());
+    std::string what =
+        fmt::format("cancelled after {} of {}", run.states.size(), counted(int(steps.size()), "step", "steps"));
     if (!states_are_written(arguments, run))
         throw Cancelled(what);
     if (!holds_as_much(arguments, part, options, steps, run))

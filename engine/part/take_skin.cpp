@@ -107,15 +107,15 @@ void refuse(PartFile& part, const NotASheet& reason, bool solid)
 {
     std::erase_if(part.doctor.findings, of_the_surface);
     const int count = faces(part, [](size_t) { return true; });
-    Finding finding{
-        Fault::closed_surface,
-        Severity::fatal,
-        count,
-        reason.face < 0 ? -1 : part.source_face[size_t(reason.face)],
-        fmt::format("{} of {} faces, and {}", solid ? "it is a solid" : "it is a closed surface", count, reason.what()),
-        "a solid is taken apart where it is a sheet of one thickness; else give one skin of the sheet: ",
-        {},
-        {}};
+    Finding finding{Fault::closed_surface,
+                    Severity::fatal,
+                    count,
+                    reason.face < 0 ? -1 : part.source_face[size_t(reason.face)],
+                    fmt::format("{} of {}, and {}", solid ? "it is a solid" : "it is a closed surface",
+                                counted(count, "face", "faces"), reason.what()),
+                    "a solid is taken apart where it is a sheet of one thickness; else give one skin of the sheet: ",
+                    {},
+                    {}};
     finding.advice += part.cad
                           ? "choose its faces (--part, e.g. 3 or 0-17), or export it as a surface"
                           : "delete the other side and the faces across the thickness. If it is a hollow body, give "
@@ -363,13 +363,14 @@ void note_skin(PartFile& part, bool uneven_told)
 {
     const SolidOrigin& solid = *part.solid;
     const int taken = solid.skin == Skin::inner ? solid.inner_faces : solid.outer_faces;
-    const std::string what = solid.skin == Skin::middle
-                                 ? fmt::format("middle surface, from the {} faces of its outer skin,", taken)
-                                 : fmt::format("{} skin of {} faces", name(solid.skin), taken);
-    part.notes.push_back(
-        fmt::format("a solid of {} faces{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
-                    "surface of it)",
-                    solid.faces, solid.open ? ", some of which are missing" : "", what, solid.thickness));
+    const std::string what =
+        solid.skin == Skin::middle
+            ? fmt::format("middle surface, from the {} of its outer skin,", counted(taken, "face", "faces"))
+            : fmt::format("{} skin of {}", name(solid.skin), counted(taken, "face", "faces"));
+    part.notes.push_back(fmt::format("a solid of {}{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
+                                     "surface of it)",
+                                     counted(solid.faces, "face", "faces"),
+                                     solid.open ? ", some of which are missing" : "", what, solid.thickness));
     constexpr double uneven = 1.15; // a bend with one radius on both sides is up to 1.41 times as thick
     if (part.cad && !uneven_told && solid.most > uneven * solid.thickness)
         doubt(part,

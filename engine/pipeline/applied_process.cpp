@@ -84,9 +84,9 @@ std::vector<std::string> describe(const AppliedProcess& process)
 {
     std::vector<std::string> lines;
     for (const AppliedContact& each : process.contact)
-        lines.push_back(fmt::format("contact {}: {:.4g} MPa on {} faces, friction {:.4g} on {}, holds up to {:.4g} N",
-                                    each.name, each.pressure_MPa, each.faces, each.friction,
-                                    each.sides == 1 ? "1 side" : "2 sides", each.friction_force_N));
+        lines.push_back(fmt::format("contact {}: {:.4g} MPa on {}, friction {:.4g} on {}, holds up to {:.4g} N",
+                                    each.name, each.pressure_MPa, counted(each.faces, "face", "faces"), each.friction,
+                                    counted(each.sides, "side", "sides"), each.friction_force_N));
     for (const AppliedBead& each : process.drawbeads)
         lines.push_back(
             fmt::format("drawbead {}: {:.4g} N/mm over {:.4g} mm", each.name, each.force_N_mm, each.length_mm));
@@ -97,12 +97,11 @@ std::vector<std::string> describe(const AppliedProcess& process)
                         process.edge_restraint * process.lock_force_N_mm, process.held_mm) +
             (process.tailored.empty() ? "" : " on the base sheet"));
     for (const AppliedPilot& each : process.pilots)
-        lines.push_back(fmt::format("pilot {}: {}", each.name,
-                                    each.places == 1 ? "1 place" : fmt::format("{} places", each.places)));
+        lines.push_back(fmt::format("pilot {}: {}", each.name, counted(each.places, "place", "places")));
     for (const AppliedPiece& each : process.tailored)
         lines.push_back(
-            fmt::format("tailored piece {}: {}, {:.4g} mm, {} faces, {:.6g} mm2", each.name, each.material,
-                        each.thickness_mm, each.faces, each.area_mm2) +
+            fmt::format("tailored piece {}: {}, {:.4g} mm, {}, {:.6g} mm2", each.name, each.material, each.thickness_mm,
+                        counted(each.faces, "face", "faces"), each.area_mm2) +
             (each.edge_force_N_mm > 0 ? fmt::format(", edge held by {:.4g} N/mm", each.edge_force_N_mm) : ""));
     if (process.rolling)
         lines.push_back(fmt::format("rolled along {:.4g}, {:.4g}, {:.4g}", (*process.rolling)[0], (*process.rolling)[1],

@@ -127,13 +127,14 @@ std::vector<std::string> shortcomings(const Session& session)
                        "crack is told by the forming limits"
                      : ", extrapolated: the sheet would neck or crack there"));
         if (flat.flipped_triangles > 0)
-            list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
+            list.push_back(fmt::format("{} flipped", counted(flat.flipped_triangles, "triangle of the blank is",
+                                                             "triangles of the blank are")));
         if (const auto& crossing = flat.overlap.crossings; !crossing.empty()) {
             const Eigen::Vector2d at = flat.blank.position.col(crossing[0].edge[0]);
-            list.push_back(fmt::format(
-                "the outline of the blank crosses itself at {} places, the first near {:.4g}, {:.4g} mm: the flat "
-                "sheet would overlap; cut the part or unfold it in steps",
-                crossing.size(), at[0], at[1]));
+            list.push_back(
+                fmt::format("the outline of the blank crosses itself at {}, the first near {:.4g}, {:.4g} mm: the flat "
+                            "sheet would overlap; cut the part or unfold it in steps",
+                            counted(int(crossing.size()), "place", "places"), at[0], at[1]));
         }
         if (const auto& wound = flat.overlap.wound; !wound.empty())
             list.push_back(fmt::format(
@@ -144,16 +145,14 @@ std::vector<std::string> shortcomings(const Session& session)
     if (session.blank && session.blank->skins && session.blank->skins->sharp_faces > 0)
         list.push_back(fmt::format(
             "{} bent to a radius below one sheet thickness: the skin strains there are those for one thickness",
-            session.blank->skins->sharp_faces == 1 ? "1 face is"
-                                                   : fmt::format("{} faces are", session.blank->skins->sharp_faces)));
+            counted(session.blank->skins->sharp_faces, "face is", "faces are")));
     if (session.grid && session.grid->result.quality.folded_cells > 0) {
         const CellQuality& quality = session.grid->result.quality;
         const auto [column, row] = worst_cell(session.grid->result.planar);
-        list.push_back(
-            fmt::format("{} of the grid {} folded, worst the cell in column {}, row {} (scaled Jacobian {:.2f}); "
-                        "choose other corners or the harmonic method",
-                        quality.folded_cells == 1 ? "1 cell" : fmt::format("{} cells", quality.folded_cells),
-                        quality.folded_cells == 1 ? "is" : "are", column, row, quality.min_scaled_jacobian));
+        list.push_back(fmt::format("{} folded, worst the cell in column {}, row {} (scaled Jacobian {:.2f}); "
+                                   "choose other corners or the harmonic method",
+                                   counted(quality.folded_cells, "cell of the grid is", "cells of the grid are"),
+                                   column, row, quality.min_scaled_jacobian));
     }
     for (std::string& lack : grid_shortcomings(session))
         list.push_back(std::move(lack));

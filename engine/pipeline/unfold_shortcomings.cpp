@@ -27,22 +27,26 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, con
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
             poorer.push_back(fmt::format(
-                "step \"{}\": {} faces reach beyond the end of the target, up to {:.4g} mm from its fixed faces",
-                state.name, state.reach.without_room, state.reach.farthest_mm));
+                "step \"{}\": {} beyond the end of the target, up to {:.4g} mm from its fixed faces", state.name,
+                counted(state.reach.without_room, "face reaches", "faces reach"), state.reach.farthest_mm));
     if (!run.states.empty() && run.states.back().necking > 0)
         poorer.push_back(fmt::format(
-            "{} triangles are strained beyond the valid range of the hardening curve, extrapolated: the sheet would neck or crack there",
-            run.states.back().necking));
+            "{} strained beyond the valid range of the hardening curve, extrapolated: the sheet would neck or crack "
+            "there",
+            counted(run.states.back().necking, "triangle is", "triangles are")));
     for (size_t k = 0; k + 1 < run.states.size(); ++k)
         if (const LandedOverlap& over = run.states[k].overlap; over.landed > 0)
             poorer.push_back(fmt::format(
-                "step \"{}\" makes the sheet overlap itself at {} places, so that it may be impossible; the first is near {:.6g}, {:.6g}, {:.6g}",
-                run.states[k].name, over.landed, over.first[0], over.first[1], over.first[2]));
+                "step \"{}\" makes the sheet overlap itself at {}, so that it may be impossible; the first is near "
+                "{:.6g}, {:.6g}, {:.6g}",
+                run.states[k].name, counted(over.landed, "place", "places"), over.first[0], over.first[1],
+                over.first[2]));
     if (!run.states.empty() && run.states.back().overlap.places > 0)
-        poorer.push_back(fmt::format("{} overlaps itself at {} places", run.blank ? "the blank" : "the last state",
-                                     run.states.back().overlap.places));
+        poorer.push_back(fmt::format("{} overlaps itself at {}", run.blank ? "the blank" : "the last state",
+                                     counted(run.states.back().overlap.places, "place", "places")));
     if (run.flipped > 0)
-        poorer.push_back(fmt::format("{} triangles of the blank are flipped", run.flipped));
+        poorer.push_back(
+            fmt::format("{} flipped", counted(run.flipped, "triangle of the blank is", "triangles of the blank are")));
     if (!run.blank && run.failure.empty())
         poorer.push_back("after the last step the part is not flat");
     return poorer;

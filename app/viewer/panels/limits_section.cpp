@@ -145,9 +145,10 @@ void spots(Frame& frame, const LimitsResult& limits)
         const ShownUnit area = as_shown("mm\u00b2", frame.lengths());
         tooltip(fmt::format(
             "Face {} at {:.4g}, {:.4g}, {:.4g} {}: major strain {:.3f}, minor {:.3f}, thinning {} %. The worst "
-            "of a region of {} faces, {:.4g} {}. Click to look at it.",
+            "of a region of {}, {:.4g} {}. Click to look at it.",
             spot.face, at[0], at[1], at[2], length_word(frame.lengths()), spot.strain_major, spot.strain_minor,
-            figure_text(100 * spot.thinning, 1), spot.region_faces, area.factor * spot.region_area_mm2, area.unit));
+            figure_text(100 * spot.thinning, 1), counted(spot.region_faces, "face", "faces"),
+            area.factor * spot.region_area_mm2, area.unit));
         ImGui::TableNextColumn();
         right_aligned(margin ? figure_text(100 * *margin, 1) + " %" : "-");
         ImGui::TableNextColumn();

@@ -177,8 +177,8 @@ void step_row(Frame& frame, int number)
         frame.actions.push(chosen ? ShowStep{} : ShowStep{number, {}});
     }
     note_place(frame, fmt::format("step {}", number + 1));
-    tooltip(fmt::format("{}: {} faces. Click to show and edit the step, click again to return to the part.", step.name,
-                        step.pick.freed.size()));
+    tooltip(fmt::format("{}: {}. Click to show and edit the step, click again to return to the part.", step.name,
+                        counted(int(step.pick.freed.size()), "face", "faces")));
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddCircleFilled({at.x + r, at.y + ImGui::GetTextLineHeight() / 2}, r, ink(status_colour(p, status)), 16);
     draw->AddText({at.x + text_from, at.y}, ImGui::GetColorU32(ImGuiCol_Text),

@@ -207,16 +207,16 @@ void unfold_step(Frame& frame)
     ImGui::SameLine();
     const bool old = stale && *stale <= Stage::solve;
     const bool good = light(frame, ChainStep::unfold, Status::done) == Status::done;
-    ImGui::TextColored(old     ? p.muted
-                       : !fine ? p.warning
-                       : good  ? p.good
-                               : ImGui::GetStyleColorVec4(ImGuiCol_Text),
-                       of_steps && !steps->polish ? fmt::format("from {} steps", steps->run->states.size()).c_str()
-                       : of_steps && fine         ? "from steps, polished"
-                       : fine                     ? "converged"
-                       : flat.report.converged
-                           ? flat.report.relaxed_vertices > 0 ? "converged, relaxed" : "converged, with a note"
-                           : "not converged");
+    ImGui::TextColored(
+        old     ? p.muted
+        : !fine ? p.warning
+        : good  ? p.good
+                : ImGui::GetStyleColorVec4(ImGuiCol_Text),
+        of_steps && !steps->polish ? ("from " + counted(int(steps->run->states.size()), "step", "steps")).c_str()
+        : of_steps && fine         ? "from steps, polished"
+        : fine                     ? "converged"
+        : flat.report.converged    ? flat.report.relaxed_vertices > 0 ? "converged, relaxed" : "converged, with a note"
+                                   : "not converged");
     doubt_rows(frame, ChainStep::unfold);
     direction_control(frame);
     k_factor_control(frame);
@@ -230,9 +230,11 @@ void unfold_step(Frame& frame)
     figure(frame, "Equivalent strain",
            sheet.strain_equivalent > 0 ? "up to " + figure_text(sheet.strain_equivalent, 3) : "0");
     if (!of_steps || steps->polish)
-        figure(frame, "Solved in",
-               fmt::format("{} iterations, {:.2g} s", flat.report.energy.size() + flat.report.newton.size(),
-                           flat.report.seconds));
+        figure(
+            frame, "Solved in",
+            fmt::format("{}, {:.2g} s",
+                        counted(int(flat.report.energy.size() + flat.report.newton.size()), "iteration", "iterations"),
+                        flat.report.seconds));
 }
 
 /// How the grid came about.

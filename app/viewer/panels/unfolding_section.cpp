@@ -169,8 +169,9 @@ void blank_of_steps(Frame& frame)
             tooltip("With the K factor of the run. The blank is laid by the one that is set now once it is used.");
     }
     if (run.flipped > 0)
-        return coloured(p.warning, fmt::format("{} triangles of the blank are flipped; unfold in smaller steps there.",
-                                               run.flipped));
+        return coloured(p.warning,
+                        fmt::format("{} flipped; unfold in smaller steps there.",
+                                    counted(run.flipped, "triangle of the blank is", "triangles of the blank are")));
     bool& polish = frame.ui.polish_steps;
     const bool waits = blank_of_steps_waits(document);
     if (!waits) {

@@ -24,8 +24,9 @@ std::string what_is_missing(const Session& session)
         return "Make the grid to see the quad mesh on the part.";
     if (const int folded = session.grid->result.quality.folded_cells; folded > 0)
         return fmt::format(
-            "{} cells of the grid are folded, so it cannot be put on the part. They are red on the blank; move the corners or choose another method.",
-            folded);
+            "{} folded, so it cannot be put on the part. See what is red on the blank; move the corners or choose "
+            "another method.",
+            counted(folded, "cell of the grid is", "cells of the grid are"));
     return "The grid is not on the part yet: press Update all (F5).";
 }
 

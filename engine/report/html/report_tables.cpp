@@ -91,9 +91,9 @@ std::string equations(const SolveReport& report)
                            "strain {} on",
                            fixed(report.trusted_strain, 2));
     case SolvedSystem::relaxed:
-        return fmt::format("virtual work; relaxed: the equilibrium of {} vertices, where the mesh does not resolve the "
+        return fmt::format("virtual work; relaxed: the equilibrium of {} {}, where the mesh does not resolve the "
                            "change of strain",
-                           grouped(report.relaxed_vertices));
+                           grouped(report.relaxed_vertices), report.relaxed_vertices == 1 ? "vertex" : "vertices");
     case SolvedSystem::energy:
         return "relaxed altogether: the blank of least energy with the thickness held, not in equilibrium";
     }
@@ -187,10 +187,10 @@ static std::string surface_rows(const Session& session, const ResultFigures& fig
     const bool patches = session.surface->patches != nullptr;
     const NurbsSurface& one = session.surface->result.surface;
     std::string rows =
-        row("NURBS surface",
-            patches ? fmt::format("{} patches, {} joints without a gap, {} control points, shared ones counted once",
-                                  surface.patches, surface.joints, surface.control_points)
-                    : fmt::format("{} \u00d7 {} control points", one.count_u, one.count_v));
+        row("NURBS surface", patches ? fmt::format("{}, {} without a gap, {} control points, shared ones counted once",
+                                                   counted(surface.patches, "patch", "patches"),
+                                                   counted(surface.joints, "joint", "joints"), surface.control_points)
+                                     : fmt::format("{} \u00d7 {} control points", one.count_u, one.count_v));
     rows += row("Surface deviation", fmt::format("at most {}, 95 % below {}, RMS {}", in.text(surface.deviation_max),
                                                  in.text(surface.deviation_p95), in.text(surface.deviation_rms)));
     const Certificate& certificate = surface_certificate(session);
@@ -202,11 +202,11 @@ static std::string surface_rows(const Session& session, const ResultFigures& fig
     if (const auto& fit = session.surface->fit)
         rows +=
             row("Tolerance of the surface",
-                fmt::format("{}, {} in {} rounds; {} % of the area within it", in.text(fit->tolerance),
+                fmt::format("{}, {} in {}; {} % of the area within it", in.text(fit->tolerance),
                             !fit->reached                            ? "not met"
                             : surface.deviation_max > fit->tolerance ? "met on the remeshed part, not on the file's,"
                                                                      : "met",
-                            fit->rounds, fixed(100 * deviation.within(), 2)));
+                            counted(fit->rounds, "round", "rounds"), fixed(100 * deviation.within(), 2)));
     constexpr double degrees = 180 / std::numbers::pi;
     if (!patches)
         rows += row("Normals of the surface",
@@ -381,9 +381,9 @@ std::string assumptions(const Session& session, LengthUnit lengths)
     rows += row("Valid up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
                                            fixed(session.blank->report.trusted_strain, 2)));
     if (const auto& steps = session.options.steps)
-        rows +=
-            row("Blank", fmt::format("made step by step, in {} steps{}", steps->run->states.size(),
-                                     steps->polish ? ", then polished: the one-step solve was started from it" : ""));
+        rows += row("Blank",
+                    fmt::format("made step by step, in {}{}", counted(int(steps->run->states.size()), "step", "steps"),
+                                steps->polish ? ", then polished: the one-step solve was started from it" : ""));
     if (session.options.steps && !session.options.steps->polish)
         rows += row("Method",
                     "region by region onto faces in space, the outermost first; strains from the flat sheet to the "
@@ -402,12 +402,12 @@ std::string assumptions(const Session& session, LengthUnit lengths)
 static std::string solver_iterations(const Session& session)
 {
     const SolveReport& report = session.blank->report;
-    return fmt::format(
-        "<h2>Convergence of the solver</h2>\n<div class=\"pair\"><div><h3>Iterations</h3>{}</div>"
-        "<div><h3>Hardening curve</h3>{}</div></div>\n<p>{} energy and {} Newton steps in {} s; {}; residual "
-        "{} of the nodal forces at yield.</p>\n",
-        residual_chart(report), hardening_chart(session), report.energy.size(), report.newton.size(),
-        fixed(report.seconds, 1), escaped(report.reason), power_of_ten(report.residual));
+    return fmt::format("<h2>Convergence of the solver</h2>\n<div class=\"pair\"><div><h3>Iterations</h3>{}</div>"
+                       "<div><h3>Hardening curve</h3>{}</div></div>\n<p>{} energy and {} in {} s; {}; residual "
+                       "{} of the nodal forces at yield.</p>\n",
+                       residual_chart(report), hardening_chart(session), report.energy.size(),
+                       counted(int(report.newton.size()), "Newton step", "Newton steps"), fixed(report.seconds, 1),
+                       escaped(report.reason), power_of_ten(report.residual));
 }
 
 /// What each step did.
