@@ -274,10 +274,12 @@ std::vector<std::filesystem::path> keep_states(const UnfoldArguments& arguments,
 /// What a run that a step broke off leaves; empty: nothing.
 std::string describe_kept(const UnfoldArguments& arguments, const UnfoldRun& run)
 {
-    return states_are_written(arguments, run)
-               ? fmt::format("; the states of {} before it are kept: --redo auto goes on from there",
-                             counted(int(run.states.size()), "step", "steps"))
-               : std::string();
+    if (!states_are_written(arguments, run))
+        return "";
+    return fmt::format("; {} kept: --redo auto goes on from there",
+                       run.states.size() == 1
+                           ? "the state of the step before it is"
+                           : fmt::format("the states of the {} steps before it are", run.states.size()));
 }
 
 /// Of a run that was cancelled: leaves its states and says how to go on.

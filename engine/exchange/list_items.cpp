@@ -11,6 +11,7 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/exchange/mesh/mesh_file.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -86,10 +87,10 @@ FileItems items_of_deck(const std::filesystem::path& path, const Progress& progr
         items.item.push_back(
             {choice(part), part.name, "part", -1, part.elements, 0, part.thickness, part.material, false});
         if (part.broken > 0)
-            items.notes.push_back(
-                fmt::format("part {}: {} shells name nodes that are not in the deck (first: element {}, "
-                            "node {}); it cannot be taken",
-                            title(part), part.broken, part.broken_element, part.missing_node));
+            items.notes.push_back(fmt::format("part {}: {} nodes that are not in the deck (first: element {}, "
+                                              "node {}); it cannot be taken",
+                                              title(part), counted(part.broken, "shell names", "shells name"),
+                                              part.broken_element, part.missing_node));
     }
     items.preview.position = std::move(deck.position);
     for (int e = 0; e < deck.elements(); ++e) {

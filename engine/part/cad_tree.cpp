@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/read_number.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -119,8 +120,8 @@ std::string describe(const CadTree& tree, int item)
     int depth = 0;
     for (int holder = each.parent; holder >= 0; holder = tree.item[size_t(holder)].parent)
         ++depth;
-    return fmt::format("{:<12} {:<28} {:>6} faces, {}", choice(each), std::string(2 * size_t(depth), ' ') + each.name,
-                       each.faces, name(each.kind));
+    return fmt::format("{:<12} {:<28} {:>6} {}, {}", choice(each), std::string(2 * size_t(depth), ' ') + each.name,
+                       each.faces, each.faces == 1 ? "face" : "faces", name(each.kind));
 }
 
 std::string item_list(const CadTree& tree)

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "engine/mesh/doctor.h"
+
 namespace spia {
 namespace {
 

@@ -84,7 +84,7 @@ script["steps"][1]["target"] = {"cylinder": {"origin": [1e5, 0, 0], "axis": [0, 
 json.dump(script, open(sys.argv[2], "w"))
 END
 expect_exit 3 "$spia" unfold "$fender" --script "$out/far.json" --out "$out/failed"
-grep -q "step 2 .*the states of the 1 steps before it are kept: --redo auto" "$out.log" || { cat "$out.log"; fail "the failed step does not say what is kept"; }
+grep -q "step 2 .*the state of the step before it is kept: --redo auto" "$out.log" || { cat "$out.log"; fail "the failed step does not say what is kept"; }
 expect_exit 0 "$spia" unfold "$fender" --script "$out/three.json" --out "$out/failed" --redo auto
 grep -q "kept      1 state " "$out.log" || fail "the state before a failed step is not kept"
 expect_exit 0 "$spia" unfold "$part" --auto --polish --out "$out/polished" --json "$out/polished.json" --strict

@@ -12,6 +12,7 @@
 
 #include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -329,7 +330,7 @@ void report_cad(const CadContent& cad, PartFile& part)
     part.notes.push_back(cad.sewing_tolerance > 0
                              ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges reduced from {} to {}",
                                            cad.sewing_tolerance, cad.free_before, cad.free_after)
-                             : fmt::format("not sewn: {} free edges", cad.free_after));
+                             : "not sewn: " + counted(cad.free_after, "free edge", "free edges"));
     if (cad.sewing_tolerance > 0 && cad.sewing_tolerance >= cad.half_an_edge)
         part.notes.push_back(
             fmt::format("the sewing tolerance is half the length of edges or more, the shortest {:.3g} mm: small faces "

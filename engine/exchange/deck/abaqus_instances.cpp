@@ -1,5 +1,7 @@
 #include "engine/exchange/deck/abaqus_instances.h"
 
+#include "engine/mesh/doctor.h"
+
 #include <algorithm>
 #include <fmt/core.h>
 
@@ -43,7 +45,8 @@ void AbaqusInstances::end_scope(const DeckRange& scope, size_t first_set)
 void AbaqusInstances::place_all()
 {
     if (lost_ > 0)
-        deck_.doubt(fmt::format("{} instances are of parts that are not in the deck; their shells are missing", lost_));
+        deck_.doubt(fmt::format("{} of parts that are not in the deck; their shells are missing",
+                                counted(lost_, "instance is", "instances are")));
     std::vector<Part*> in_order; // of the deck, for the same numbers every time
     for (auto& [name, part] : parts_)
         in_order.push_back(&part);
@@ -64,7 +67,8 @@ void AbaqusInstances::place_all()
     }
     deck_.drop_empty_sets();
     if (dropped > 0)
-        deck_.note(fmt::format("{} parts have no instance in the assembly and are left out", dropped));
+        deck_.note(fmt::format("{} no instance in the assembly and {} left out",
+                               counted(dropped, "part has", "parts have"), dropped == 1 ? "is" : "are"));
 }
 
 void AbaqusInstances::copy(const Part& part, const Placed& placed)

@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/deck/part_shells.h"
 #include "engine/exchange/sheet_field_list.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -35,12 +36,13 @@ public:
         number_nodes(blank);
         ShellMesh& mesh = blank_.mesh;
         if (const auto copies = last_node_ - shells_.last_node; copies > 0)
-            mesh.notes.push_back(fmt::format("the part was cut open: {} nodes are copies, with ids from {} on", copies,
+            mesh.notes.push_back(fmt::format("the part was cut open: {}, with ids from {} on",
+                                             counted(int(copies), "node is a copy", "nodes are copies"),
                                              shells_.last_node + 1));
         if (torn_ > 0)
-            mesh.notes.push_back(fmt::format(
-                "{} elements are torn by the cut and written as triangles, further ones with ids from {} on", torn_,
-                shells_.last_element + 1));
+            mesh.notes.push_back(
+                fmt::format("{} torn by the cut and written as triangles, further ones with ids from {} on",
+                            counted(int(torn_), "element is", "elements are"), shells_.last_element + 1));
         return std::move(blank_);
     }
 

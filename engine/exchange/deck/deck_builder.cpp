@@ -9,6 +9,7 @@
 #include "engine/exchange/mesh/checked_file.h"
 #include "engine/exchange/text/text_encoding.h"
 #include "engine/exchange/text/text_lines.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -275,8 +276,8 @@ void DeckBuilder::drop_absurd_thicknesses()
             thickness_[e] = 0;
         }
     if (dropped > 0)
-        note(fmt::format("{} shells have an invalid thickness of their own, which is ignored (first: element {})",
-                         dropped, shell_[first].id));
+        note(fmt::format("{} an invalid thickness of their own, which is ignored (first: element {})",
+                         counted(dropped, "shell has", "shells have"), shell_[first].id));
 }
 
 void DeckBuilder::thickness_from_elements()
@@ -323,9 +324,9 @@ void DeckBuilder::write_notes()
         first = !first && part.broken ? &part : first;
     }
     if (first)
-        note(fmt::format(
-            "{} shell elements name nodes that are not in the deck and are left out (first: element {}, node {})",
-            broken, first->broken_element, first->missing_node));
+        note(fmt::format("{} nodes that are not in the deck and {} left out (first: element {}, node {})",
+                         counted(broken, "shell element names", "shell elements name"), broken == 1 ? "is" : "are",
+                         first->broken_element, first->missing_node));
     if (!others_.empty())
         note("elements that are no shells are left out: " + listed(others_));
     if (!unread_geometry_.empty())

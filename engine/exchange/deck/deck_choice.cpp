@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/read_number.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -50,10 +51,10 @@ int find_part(const Deck& deck, std::string_view wanted)
 void require_whole(const Deck& deck, const DeckPart& part)
 {
     if (part.broken > 0)
-        throw InputError(
-            fmt::format("part {}: {} shells name nodes that are not in the deck (first: element {}, node {}); "
-                        "add the file that holds them, or choose other parts by id or name (--part):\n{}",
-                        title(part), part.broken, part.broken_element, part.missing_node, part_list(deck.parts)));
+        throw InputError(fmt::format("part {}: {} nodes that are not in the deck (first: element {}, node {}); "
+                                     "add the file that holds them, or choose other parts by id or name (--part):\n{}",
+                                     title(part), counted(part.broken, "shell names", "shells name"),
+                                     part.broken_element, part.missing_node, part_list(deck.parts)));
     if (part.elements == 0)
         throw InputError(fmt::format("part {} has no shell elements; choose one that has (--part):\n{}", title(part),
                                      part_list(deck.parts)));
@@ -120,7 +121,8 @@ std::string title(const DeckPart& part)
 
 std::string describe(const DeckPart& part)
 {
-    std::string text = fmt::format("{:<28} {:>8} shells", title(part), part.elements + part.broken);
+    std::string text = fmt::format("{:<28} {:>8} shell{}", title(part), part.elements + part.broken,
+                                   part.elements + part.broken == 1 ? "" : "s");
     if (part.thickness)
         text += fmt::format(", thickness {:.4g}", *part.thickness);
     if (!part.material.empty())

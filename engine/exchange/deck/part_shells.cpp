@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/sheet_field_list.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -171,9 +172,9 @@ PartShells part_shells(const PartFile& part, LengthUnit unit)
     require_once(mesh.element, "element");
     take_parts(all, mesh);
     if (!lost.empty())
-        mesh.notes.push_back(
-            fmt::format("{} elements that the part does not have after its repairs are left out (first: {})",
-                        lost.size(), lost.front()));
+        mesh.notes.push_back(fmt::format("{} that the part does not have after its repairs {} left out (first: {})",
+                                         counted(int(lost.size()), "element", "elements"),
+                                         lost.size() == 1 ? "is" : "are", lost.front()));
     const auto greatest = [](const std::vector<std::int64_t>& ids) {
         return ids.empty() ? 0 : *std::max_element(ids.begin(), ids.end());
     };

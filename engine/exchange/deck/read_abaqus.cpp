@@ -13,6 +13,7 @@
 #include "engine/exchange/deck/deck_builder.h"
 #include "engine/exchange/deck/deck_fields.h"
 #include "engine/exchange/deck/read_deck.h"
+#include "engine/mesh/doctor.h"
 
 // Layouts: Abaqus Keywords Reference Guide and the CalculiX manual (*NODE, *ELEMENT, *ELSET, *SHELL SECTION, *INCLUDE).
 namespace spia {
@@ -56,7 +57,8 @@ public:
         close_scope();
         instances_.place_all();
         if (middle_nodes_ > 0)
-            deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
+            deck_.note(fmt::format("{} nodes on their edges; their corners are taken",
+                                   counted(middle_nodes_, "shell has", "shells have")));
         return deck_.finish("Abaqus input", lines_);
     }
 

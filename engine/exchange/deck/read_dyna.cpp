@@ -11,6 +11,7 @@
 #include "engine/exchange/deck/dyna_transforms.h"
 #include "engine/exchange/deck/dyna_values.h"
 #include "engine/exchange/deck/read_deck.h"
+#include "engine/mesh/doctor.h"
 
 // Card layouts: LS-DYNA Keyword User's Manual, volume I (*NODE, *ELEMENT_SHELL, *PART, *SECTION_SHELL, *INCLUDE,
 // *PARAMETER; "Getting started" for I10=Y, LONG=Y and the marks %, +, -).
@@ -304,16 +305,15 @@ private:
         if (end_missing_)
             deck_.doubt("the deck does not end with *END: if it was cut off, shells are missing");
         if (some_corners_ > 0)
-            deck_.note(
-                fmt::format("{} shells have a thickness at some of their corners only: that of their section is taken",
-                            some_corners_));
+            deck_.note(fmt::format("{} a thickness at some of their corners only: that of their section is taken",
+                                   counted(some_corners_, "shell has", "shells have")));
         if (middle_nodes_ > 0)
-            deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
+            deck_.note(fmt::format("{} nodes on their edges; their corners are taken",
+                                   counted(middle_nodes_, "shell has", "shells have")));
         if (directed_ > 0)
             deck_.note(
-                fmt::format("{} shells have a material direction or an offset; what is written for this deck does "
-                            "not repeat them",
-                            directed_));
+                fmt::format("{} a material direction or an offset; what is written for this deck does not repeat them",
+                            counted(directed_, "shell has", "shells have")));
         return deck_.finish("LS-DYNA keyword", lines_);
     }
 

@@ -6,6 +6,7 @@
 #include "engine/exchange/deck/nastran_entries.h"
 #include "engine/exchange/deck/nastran_systems.h"
 #include "engine/exchange/deck/read_deck.h"
+#include "engine/mesh/doctor.h"
 
 // Entry layouts: Quick Reference Guide of MSC and NX Nastran (GRID, GRDSET, CORD1R, CORD2R, CTRIA3, CQUAD4, PSHELL).
 namespace spia {
@@ -126,14 +127,12 @@ private:
         if (entry_.end_missing())
             deck_.doubt("the deck does not end with ENDDATA: if it was cut off, shells are missing");
         if (unknown_thickness_ > 0)
-            deck_.note(fmt::format(
-                "{} shells have a thickness at some corners only or as a share, and their property has none",
-                unknown_thickness_));
+            deck_.note(fmt::format("{} a thickness at some corners only or as a share, and their property has none",
+                                   counted(unknown_thickness_, "shell has", "shells have")));
         if (not_written_back_ > 0)
             deck_.note(
-                fmt::format("{} shells have a material direction or an offset; what is written for this deck does "
-                            "not repeat them",
-                            not_written_back_));
+                fmt::format("{} a material direction or an offset; what is written for this deck does not repeat them",
+                            counted(not_written_back_, "shell has", "shells have")));
     }
 
     void property()
@@ -236,12 +235,13 @@ private:
             }
         }
         if (unplaced > 0)
-            deck_.doubt(fmt::format(
-                "{} nodes are left out, for their coordinate systems are not given by CORD1R, CORD1C, CORD1S, "
-                "CORD2R, CORD2C or CORD2S (first: node {} in system {})",
-                unplaced, first, in_system));
+            deck_.doubt(
+                fmt::format("{} left out, for their coordinate systems are not given by CORD1R, CORD1C, CORD1S, "
+                            "CORD2R, CORD2C or CORD2S (first: node {} in system {})",
+                            counted(unplaced, "node is", "nodes are"), first, in_system));
         if (middle_nodes_ > 0)
-            deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
+            deck_.note(fmt::format("{} nodes on their edges; their corners are taken",
+                                   counted(middle_nodes_, "shell has", "shells have")));
     }
 
     void name_parts()

@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/mesh/checked_file.h"
 #include "engine/exchange/text/text_lines.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -72,7 +73,8 @@ CheckedFile check_obj(std::string_view file)
                         largest + 1, result.position.size()));
     if (skipped > 0)
         result.notes.push_back(
-            fmt::format("{} points, lines or free-form pieces were skipped: only faces are read", skipped));
+            fmt::format("{} skipped: only faces are read", counted(int(skipped), "point, line or free-form piece was",
+                                                                   "points, lines or free-form pieces were")));
     result.content += faces;
     return result;
 }

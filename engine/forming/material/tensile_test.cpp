@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/mesh/doctor.h"
 
 namespace spia {
 namespace {
@@ -145,8 +146,10 @@ private:
             fail(first_fall,
                  "the strain falls here, and in more than half of the rows; give one loading up to fracture");
         if (left_out > 0)
-            out_.notes.push_back(fmt::format("{} rows whose strain does not rise were left out, the first in line {}",
-                                             left_out, first_fall));
+            out_.notes.push_back(fmt::format(
+                "{} left out, the first in line {}",
+                counted(int(left_out), "row whose strain does not rise was", "rows whose strain does not rise were"),
+                first_fall));
         if (kept.size() < fewest_rows)
             fail(fmt::format("{} rows of rising strain are too few for a fit; give at least {}", kept.size(),
                              fewest_rows));

@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/flatten_from.h"
 #include "engine/forming/solver/flips.h"
+#include "engine/mesh/doctor.h"
 #include "engine/mesh/segment_distance.h"
 #include "engine/mesh/topology.h"
 
@@ -70,9 +71,10 @@ std::vector<std::string> worse_in(const BlankFigures& steps, const BlankFigures&
     if (steps.converged && !polished.converged)
         worse.emplace_back("it did not converge");
     if (polished.flipped > steps.flipped)
-        worse.push_back(fmt::format("{} flipped triangles, not {}", polished.flipped, steps.flipped));
+        worse.push_back(fmt::format("{}, not {}", counted(polished.flipped, "flipped triangle", "flipped triangles"),
+                                    steps.flipped));
     if (polished.overlaps > 0 && steps.overlaps == 0)
-        worse.push_back(fmt::format("it lies on itself at {} places", polished.overlaps));
+        worse.push_back(fmt::format("it lies on itself at {}", counted(polished.overlaps, "place", "places")));
     if (polished.strain > steps.strain + strain)
         worse.push_back(fmt::format("greatest strain {:.4f}, not {:.4f}", polished.strain, steps.strain));
     const auto distorted = [&](const char* what, double now, double before) {
@@ -92,8 +94,8 @@ PolishedBlank polish(const TriMesh& part, const UnfoldRun& run, const FlattenOpt
         throw InputError(
             "the steps gave no blank that could be polished; mend the script until the part lies in a plane");
     if (run.flipped > 0)
-        throw InputError(
-            fmt::format("the blank of the steps has {} flipped triangles; it cannot be polished", run.flipped));
+        throw InputError(fmt::format("the blank of the steps has {}; it cannot be polished",
+                                     counted(run.flipped, "flipped triangle", "flipped triangles")));
     const Eigen::Matrix2Xd& before = run.blank->position;
     const bool converged = std::all_of(run.states.begin(), run.states.end(), [](const auto& s) { return s.converged; });
     PolishedBlank result{flatten_from(part, before, options, progress), {}, {}, 0, 0, {}};

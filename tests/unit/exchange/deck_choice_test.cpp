@@ -61,7 +61,7 @@ TEST(DeckChoice, ASetNeedsOnlyItsOwnNodes)
     deck.parts[1].broken = 2; // of the part that the set lies in
     deck.sets = {{"corner", {5, 6}}, {"torn", {5}, 1}};
     EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"corner"}).element, (std::vector<int>{5, 6}));
-    EXPECT_NE(refusal(deck, {"torn"}).find("element set torn: 1 shells name nodes"), std::string::npos);
+    EXPECT_NE(refusal(deck, {"torn"}).find("element set torn: 1 shell names nodes"), std::string::npos);
 }
 
 TEST(DeckChoice, SaysWhichPartsThereAre)

@@ -60,7 +60,7 @@ TEST(DynaDeck, ACornerWithoutAThicknessHasThatOfTheSection)
     const std::string shells = four_nodes + "*ELEMENT_SHELL_THICKNESS\n1,5,1,2,3,4\n1.2,1.2,,\n";
     const Deck alone = read(shells);
     EXPECT_FALSE(alone.parts[0].thickness) << "and not the mean with zeros";
-    EXPECT_TRUE(has_note(alone, "1 shells have a thickness at some of their corners only"));
+    EXPECT_TRUE(has_note(alone, "1 shell has a thickness at some of their corners only"));
     const Deck with = read(shells + "*PART\nside\n5,8\n*SECTION_SHELL\n8,2\n1.5,1.5,1.5,1.5\n");
     EXPECT_EQ(with.parts[0].thickness, 1.5);
     EXPECT_FALSE(
@@ -81,7 +81,7 @@ TEST(DynaDeck, ShellsWithNodesOnTheirEdgesGiveTheirCorners)
     ASSERT_EQ(deck.elements(), 2);
     EXPECT_EQ(deck.corner[0], (std::array<int, 4>{0, 1, 2, 3}));
     EXPECT_EQ(deck.parts[0].thickness, 0.8);
-    EXPECT_TRUE(has_note(deck, "1 shells have nodes on their edges"));
+    EXPECT_TRUE(has_note(deck, "1 shell has nodes on their edges"));
 }
 
 TEST(DynaDeck, PartsWithFurtherCardsDoNotLoseTheNextOne)
@@ -255,7 +255,7 @@ TEST(DynaDeck, ThicknessesWithoutSenseAreToldAndNotTaken)
     }
     EXPECT_EQ(spia::read(shells + "1e5\n").parts[0].thickness, 1e5);
     const Deck own = spia::read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n9,7,1,2,3,4\n-2,-2,-2,-2\n");
-    EXPECT_TRUE(has_note(own, "1 shells have an invalid thickness of their own"));
+    EXPECT_TRUE(has_note(own, "1 shell has an invalid thickness of their own"));
     EXPECT_TRUE(has_note(own, "first: element 9"));
     EXPECT_FALSE(own.parts[0].thickness);
 }
@@ -278,7 +278,7 @@ TEST(DynaDeck, AMinusBeforeAParameterTurnsItsSign)
 TEST(DynaDeck, FieldsThatAreNotWrittenBackAreTold)
 {
     const std::string shell = four_nodes + "*ELEMENT_SHELL";
-    EXPECT_TRUE(has_note(spia::read(shell + "_OFFSET\n1,7,1,2,3,4\n.5\n"), "1 shells have a material direction"));
+    EXPECT_TRUE(has_note(spia::read(shell + "_OFFSET\n1,7,1,2,3,4\n.5\n"), "1 shell has a material direction"));
     EXPECT_FALSE(has_note(spia::read(shell + "\n1,7,1,2,3,4\n"), "material direction"));
 }
 

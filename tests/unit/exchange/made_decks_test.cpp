@@ -297,7 +297,7 @@ TEST(MadeDecks, APartIsThereOnceForEachOfItsInstances)
         const Deck deck = read(text + "*END ASSEMBLY\n");
         EXPECT_TRUE(deck.doubts.empty());
         ASSERT_EQ(deck.elements(), instances * int(part.shell.size())) << "without the spare part";
-        EXPECT_TRUE(sample::has_note(deck, "1 parts have no instance"));
+        EXPECT_TRUE(sample::has_note(deck, "1 part has no instance"));
         EXPECT_EQ(deck.copies, instances > 1);
         int e = 0;
         for (int k = 0; k < instances; ++k)

@@ -109,7 +109,7 @@ TEST_F(ReadPart, ObjCornersMayCountBackwardsAndLinesMayGoOn)
     EXPECT_EQ(part.mesh.triangles(), 2);
     EXPECT_NEAR(area(part.mesh), 1, 1e-15);
     ASSERT_FALSE(part.notes.empty());
-    EXPECT_NE(part.notes[0].find("1 points, lines"), std::string::npos);
+    EXPECT_NE(part.notes[0].find("1 point, line or free-form piece was"), std::string::npos);
 }
 
 TEST_F(ReadPart, FacesThatOpenMeshDropsAreSeenByTheDoctorUnderTheirNumber)

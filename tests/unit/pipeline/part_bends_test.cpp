@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using shapes::BentSolid;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 BentSolid l_bracket() // that of the cases: legs of 40 and 25 mm outside
 {

@@ -59,6 +59,8 @@ TEST_F(UnfoldShortcomings, TheLastStateCountsWhateverLaidItSo)
     run.states.back().overlap = {2, {1, 2, 3}, 0};
     EXPECT_THAT(shortcomings(run, 100, {"found before"}),
                 ElementsAre("found before", "the blank overlaps itself at 2 places"));
+    run.states.back().overlap.places = 1;
+    EXPECT_THAT(shortcomings(run, 100, {}), ElementsAre("the blank overlaps itself at 1 place"));
 }
 
 } // namespace spia
