@@ -141,6 +141,11 @@ void write_cad_file(const std::filesystem::path& path, std::span<const NurbsSurf
         throw InputError(fmt::format("there is no surface to write to {}", path.string()));
     for (const NurbsSurface& surface : surfaces)
         require_exchangeable(surface);
+    write_cad_file(path, text);
+}
+
+void write_cad_file(const std::filesystem::path& path, const std::function<std::string()>& text)
+{
     std::string content;
     try {
         content = text();

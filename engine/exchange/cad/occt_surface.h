@@ -18,6 +18,10 @@ void require_exchangeable(const NurbsSurface& surface);
 void write_cad_file(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces,
                     const std::function<std::string()>& text);
 
+/// Writes a text that OpenCASCADE makes, whole or not at all. For .cpp files of engine/exchange.
+/// @throws ExchangeError if OpenCASCADE or the disk refuses
+void write_cad_file(const std::filesystem::path& path, const std::function<std::string()>& text);
+
 /// For .cpp files of engine/exchange that hold an OcctSession; both copy poles and knots bit for bit.
 Handle(Geom_BSplineSurface) to_occt(const NurbsSurface& surface);
 

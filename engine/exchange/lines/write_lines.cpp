@@ -5,7 +5,6 @@
 #include <Geom_BSplineCurve.hxx>
 #include <IGESBasic_Name.hxx>
 #include <IGESGeom_BSplineCurve.hxx>
-#include <Standard_Failure.hxx>
 #include <StepGeom_Curve.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
 #include <StepShape_GeometricCurveSet.hxx>
@@ -18,10 +17,10 @@
 #include <fmt/core.h>
 #include <vector>
 
-#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/exchange/cad/occt_iges.h"
 #include "engine/exchange/cad/occt_step.h"
+#include "engine/exchange/cad/occt_surface.h"
 
 namespace spia {
 namespace {
@@ -132,21 +131,6 @@ void name_curves(const StepData_StepModel& model, std::span<const SheetLine> lin
                         next, lines.size(), step_resolution));
 }
 
-/// What OpenCASCADE throws, as an error of the file.
-template <class Text>
-void write_cad(const std::filesystem::path& path, std::span<const SheetLine> lines, const Text& text)
-{
-    require_lines(lines);
-    std::string content;
-    try {
-        content = text();
-    } catch (const Standard_Failure& failure) {
-        throw ExchangeError(
-            fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(), failure.GetMessageString()));
-    }
-    write_atomically(path, content);
-}
-
 } // namespace
 
 void require_lines(std::span<const SheetLine> lines)
@@ -169,7 +153,8 @@ void require_lines(std::span<const SheetLine> lines)
 void write_lines_iges(const std::filesystem::path& path, std::span<const SheetLine> lines, const std::string& part_name,
                       LengthUnit unit)
 {
-    write_cad(path, lines, [&] {
+    require_lines(lines);
+    write_cad_file(path, [&] {
         const auto entities = [&] {
             std::vector<Handle(IGESData_IGESEntity)> list;
             for (const SheetLine& line : lines)
@@ -183,7 +168,8 @@ void write_lines_iges(const std::filesystem::path& path, std::span<const SheetLi
 void write_lines_step(const std::filesystem::path& path, std::span<const SheetLine> lines, const std::string& part_name,
                       LengthUnit unit)
 {
-    write_cad(path, lines, [&] {
+    require_lines(lines);
+    write_cad_file(path, [&] {
         return step_text([&] { return compound(lines); }, STEPControl_GeometricCurveSet,
                          [&](const StepData_StepModel& model) { name_curves(model, lines); }, path.filename().string(),
                          part_name, unit);
