@@ -201,8 +201,9 @@ KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, c
         throw InputError(
             fmt::format("--redo {}: the script has {}", from, counted(int(steps.size()), "step", "steps")));
     if (from > kept.keep + 1)
-        throw InputError(fmt::format("--redo {}: only {} of the earlier run, for {}; give --redo auto", from,
-                                     counted(int(kept.keep), "state holds", "states hold"), kept.why));
+        throw InputError(fmt::format(
+            "--redo {}: only {}, for {}; give --redo auto", from,
+            counted(int(kept.keep), "state of the earlier run holds", "states of the earlier run hold"), kept.why));
     if (from > 0)
         kept.keep = from - 1;
     say("kept      {} of an earlier run{}\n", counted(int(kept.keep), "state", "states"),

@@ -274,9 +274,9 @@ void count_beyond(const SheetFields& face, const std::vector<Judge>& judges, con
     const double share = double(beyond) / std::max(measured, 1);
     if (share > many)
         out.notes.push_back(fmt::format(
-            "{} ({:.0f} %) minor strains beyond the ends of the forming limit curve, which is prolonged straight to "
-            "there: give points from {:.2f} to {:.2f}",
-            counted(beyond, "face has", "faces have"), 100 * share, least, greatest));
+            "{} ({:.0f} %) {} minor strains beyond the ends of the forming limit curve, which is prolonged straight "
+            "to there: give points from {:.2f} to {:.2f}",
+            counted(beyond, "face", "faces"), 100 * share, beyond == 1 ? "has" : "have", least, greatest));
 }
 
 } // namespace

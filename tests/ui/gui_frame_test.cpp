@@ -56,7 +56,7 @@ protected:
 class TypedNumber : public Panels {
 protected:
     /// Draws one frame. @returns whether the number has changed
-    bool draw(std::vector<int> keys = {})
+    bool draw(const std::vector<int>& keys = {})
     {
         ui.keys.clear();
         for (const int key : keys)
@@ -230,6 +230,7 @@ TEST_F(GuiFrame, ItsTextsAreReadOffWhatIsDrawn)
         });
     const auto texts = texts_on_screen(*ImGui::GetDrawData());
     std::vector<std::string> lines;
+    lines.reserve(texts.size());
     for (const ScreenText& text : texts)
         lines.push_back(text.text);
     EXPECT_EQ(lines, (std::vector<std::string>{"window", "two words, 12.5 %", "next column", "Press me", "40%"}));

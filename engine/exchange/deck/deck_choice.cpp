@@ -76,9 +76,10 @@ std::vector<char> chosen_elements(const Deck& deck, std::span<const std::string>
                                          part_list(deck.parts)));
         const DeckSet& set = deck.sets[size_t(s)];
         if (set.broken > 0)
-            throw InputError(fmt::format("element set {}: {} shells name nodes that are not in the deck; add the file "
-                                         "that holds them, or choose other parts by id or name (--part):\n{}",
-                                         set.name, set.broken, part_list(deck.parts)));
+            throw InputError(fmt::format("element set {}: {} nodes that are not in the deck; add the file that holds "
+                                         "them, or choose other parts by id or name (--part):\n{}",
+                                         set.name, counted(set.broken, "shell names", "shells name"),
+                                         part_list(deck.parts)));
         for (const int e : set.elements)
             chosen[size_t(e)] = 1;
     }

@@ -360,7 +360,7 @@ TEST(DynaDeck, WhatIsNotReadIsTold)
     EXPECT_EQ(deck.parts[0].missing_node, 99);
     EXPECT_TRUE(has_note(deck, "*CONTACT_SINGLE (2)"));
     EXPECT_TRUE(has_note(deck, "*ELEMENT_BEAM lines (2), *ELEMENT_SOLID lines"));
-    EXPECT_TRUE(has_note(deck, "1 shell elements name nodes"));
+    EXPECT_TRUE(has_note(deck, "1 shell element names nodes"));
     EXPECT_TRUE(has_note(deck, "more than once (first: 1)"));
 }
 

@@ -337,7 +337,7 @@ TEST(MadeDecks, WhatCannotBeReadIsADoubtWithItsKeyword)
     EXPECT_NE(doubt("*SYSTEM\n1,1,1\n*NCOPY, CHANGE NUMBER=9, OLD SET=A, SHIFT\n1,1,1\n").find("*NCOPY"),
               std::string::npos);
     EXPECT_NE(doubt("*NSET,NSET=C,ELSET=E\n*NFILL\nA,C,2,1\n").find("*NFILL"), std::string::npos);
-    EXPECT_NE(doubt("*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n").find("instances are of parts"), std::string::npos);
+    EXPECT_NE(doubt("*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n").find("1 instance is of parts"), std::string::npos);
     EXPECT_NE(doubt("*INSTANCE, LIBRARY=old, INSTANCE=I\n*END INSTANCE\n").find("*INSTANCE, LIBRARY"),
               std::string::npos);
 }

@@ -57,7 +57,7 @@ TEST(BendZones, GoOverIntoTheSheetAlongTheirAxis)
 TEST(BendZones, GiveBendsTheRadiusOfTheirCylinder)
 {
     const TriMesh part =
-        shapes::extruded(shapes::Profile({0, 0}, 0).straight(50).bend(7.5, 1.2).straight(30), 40, 1000).mesh;
+        shapes::extruded(shapes::Profile({0, 0}, 0).straight(40).bend(7.5, 1.2).straight(30), 120, 3000).mesh;
     BendMap map = find_bends(part);
     ASSERT_EQ(map.bends.size(), 1u);
     EXPECT_LT(map.bends[0].radius, 7.495) << "that of chords";

@@ -78,7 +78,7 @@ TEST_F(UnfoldingSteps, SayWhatIsLeftOutAsLongAsItIsThere)
     propose();
     run();
     EXPECT_EQ(left_out_by_steps(document), "");
-    model.apply(SetProcess{.edge_restraint = 0.49}); // when all is done
+    model.apply(SetProcess{.edge_restraint = 0.49, .rolling = {}}); // when all is done
     EXPECT_THAT(left_out_by_steps(document), HasSubstr("as a whole: edge restraint."));
     model.apply(UseBlankOfSteps{false});
     wait();
