@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/length_unit.h"
@@ -86,5 +87,12 @@ struct PartFile {
     std::optional<SolidOrigin> solid = {};   ///< of solids of sheet
     std::optional<Remeshed> remeshed = {};   ///< if it was asked for: mesh, source_vertex and source_face are new
 };
+
+/// A note of something that may not be as it was meant.
+inline void doubt(PartFile& part, std::string text)
+{
+    part.notes.push_back(text);
+    part.doubts.push_back(std::move(text));
+}
 
 } // namespace spia
