@@ -22,6 +22,7 @@ namespace {
 SkinMesh side_of(const TriMesh& solid, const ThinSolid& sheet, SheetSide side)
 {
     SkinMesh result;
+    result.side = side;
     std::vector<int> number(size_t(solid.vertices()), -1);
     for (int f = 0; f < solid.triangles(); ++f)
         if (sheet.side[size_t(f)] == side) {

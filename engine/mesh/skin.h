@@ -16,7 +16,8 @@ struct SkinMesh {
     TriMesh mesh;
     std::vector<int>
         source_vertex; ///< per vertex that of the solid, ascending; one on a divided chord has that of an end
-    std::vector<int> source_face; ///< per triangle that of the solid, ascending; repeats where one was divided
+    SheetSide side = SheetSide::outer; ///< whose triangles they are: where CAD faces of them lie
+    std::vector<int> source_face;      ///< per triangle that of the solid, ascending; repeats where one was divided
     int straightened =
         0; ///< vertices of a middle surface at slanted edges that went straight in, for triangles not to turn over
 };

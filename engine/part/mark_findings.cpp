@@ -37,8 +37,6 @@ Finding note_on(const std::vector<MarkedPlace>& marked, const std::string& text)
     return finding;
 }
 
-const char* of_skin(SheetSide side) { return side == SheetSide::inner ? "inner" : "outer"; }
-
 /// "countersink 12 mm wide, 3 mm deep"
 std::string recess(const SunkHole& hole)
 {
@@ -101,6 +99,8 @@ std::string depths(const std::vector<SheetMark>& marks)
 }
 
 } // namespace
+
+const char* of_skin(SheetSide side) { return side == SheetSide::inner ? "inner" : "outer"; }
 
 Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, const std::vector<int>& source_face)
 {

@@ -7,6 +7,8 @@
 
 namespace spia {
 
+const char* of_skin(SheetSide side); ///< "inner", "outer"
+
 /// The note on shallow marks that are passed over: with place, skin and depth of each.
 /// @param marks  at least one
 /// @param sheet  the solid that they are on

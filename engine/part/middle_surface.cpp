@@ -49,8 +49,10 @@ SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vecto
         round_border(skin, part.mesh, from, units.surface, done);
     }
     narrow_holes(skin, sunk);
-    if (exchanged)
+    if (exchanged) {
         skin.mesh.triangle.row(1).swap(skin.mesh.triangle.row(2));
+        skin.side = SheetSide::inner;
+    }
     return skin;
 }
 

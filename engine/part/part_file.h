@@ -59,6 +59,7 @@ struct SolidOrigin {
     bool open = false;                               ///< faces are missing
     std::vector<Eigen::Matrix3Xd> marks =
         {}; ///< outlines of marks that were passed over, mm, on the surface that was taken; a closed one ends where it begins
+    SheetSide side = SheetSide::outer;       ///< the skin whose faces the mesh has
     std::vector<StatedSurface> surface = {}; ///< per face of the file: the cylinder that was measured on it; empty:
                                              ///< none was, or a CAD file states them
 };

@@ -230,9 +230,10 @@ SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<S
                                                : skin_of(part.mesh, sheet, wanted, units);
         if (skin.straightened > 0)
             part.notes.push_back(fmt::format(
-                "{} not halfway along an edge that crosses the sheet askew but straight below the outer skin, up to "
+                "{} not halfway along an edge that crosses the sheet askew but straight below the {} skin, up to "
                 "half a thickness beside it, for triangles not to turn over",
-                counted(skin.straightened, "vertex of the middle surface lies", "vertices of the middle surface lie")));
+                counted(skin.straightened, "vertex of the middle surface lies", "vertices of the middle surface lie"),
+                of_skin(skin.side)));
         return skin;
     } catch (const NotASheet& reason) {
         if (asked)
@@ -269,7 +270,7 @@ Surfaces of_file_faces(const PartFile& part, const Surfaces& surface)
 }
 
 /// @returns whether there are any
-bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, const Surfaces& surface)
+bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, SheetSide laid, const Surfaces& surface)
 {
     const std::vector<UnevenBend> bends = uneven_bends(sheet, surface);
     if (bends.empty())
@@ -279,9 +280,9 @@ bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, const Surfaces& 
     doubt(part, fmt::format(
                     "{} arcs of radius {:.4g} and {:.4g} mm on both skins of a sheet of {:.4g} mm, at {:.6g}, {:.6g}, "
                     "{:.6g}{}: it is not as thick there, and inner radius and length are told and laid by the arc "
-                    "of the outer skin and the thickness elsewhere",
+                    "of the {} skin and the thickness elsewhere",
                     counted(int(bends.size()), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
-                    place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : ""));
+                    place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : "", of_skin(laid)));
     return true;
 }
 
@@ -289,10 +290,11 @@ bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, const Surfaces& 
 void note_skin(PartFile& part, bool uneven_told)
 {
     const SolidOrigin& solid = *part.solid;
-    const int taken = solid.skin == Skin::inner ? solid.inner_faces : solid.outer_faces;
+    const int taken = solid.side == SheetSide::inner ? solid.inner_faces : solid.outer_faces;
     const std::string what =
         solid.skin == Skin::middle
-            ? fmt::format("middle surface, from the {} of its outer skin,", counted(taken, "face", "faces"))
+            ? fmt::format("middle surface, from the {} of its {} skin,", counted(taken, "face", "faces"),
+                          of_skin(solid.side))
             : fmt::format("{} skin of {}", name(solid.skin), counted(taken, "face", "faces"));
     part.notes.push_back(fmt::format("a solid of {}{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
                                      "surface of it)",
@@ -347,10 +349,10 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             sheet.thickness = stated_thickness(part.mesh, sheet, surface);
         const ThinSolidOptions units = faces_of(part, normals, surface);
         Skin wanted = options.skin.value_or(Skin::middle);
-        const bool uneven = !measured && doubt_uneven_bends(part, sheet, surface);
         const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
         tell_open_sinks(part, sheet, holes);
         SkinMesh skin = wanted_skin(part, sheet, holes, wanted, options.skin.has_value(), units);
+        const bool uneven = !measured && doubt_uneven_bends(part, sheet, skin.side, surface);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
         part.solid = {wanted,
                       sheet.thickness,
@@ -364,7 +366,9 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
                       all_faces,
                       faces(part, on(SheetSide::outer)),
                       faces(part, on(SheetSide::inner)),
-                      open};
+                      open,
+                      {},
+                      skin.side};
         if (measured)
             part.solid->surface = of_file_faces(part, surface);
         for (const MarkOutline& outline : outlines)

@@ -23,7 +23,7 @@ SheetLayers layers_of(const PartFile& part, double thickness, const std::optiona
         const double half = layers.thickness / 2;
         const Skin skin = part.solid->skin;
         layers.mesh_at = skin == Skin::outer ? half : skin == Skin::inner ? -half : 0;
-        layers.face_at = skin == Skin::inner ? -half : half; // the middle surface has the faces of the outer skin
+        layers.face_at = part.solid->side == SheetSide::inner ? -half : half;
     }
     return layers;
 }
