@@ -5,16 +5,18 @@
 
 namespace spia {
 
-/// A countersink in flat sheet that has no whole circle at either skin: it is open to a border or
-/// runs into another hole, and is none of the sunk_holes().
+/// A countersink or a counterbore that has no whole circle at either skin: it is open to a border,
+/// runs into another hole or a bend, and is none of the sunk_holes().
 struct OpenSink {
-    int face;              ///< of its wall, a triangle of the solid
-    Eigen::Vector3d place; ///< mm, in the middle of the wall
-    bool land;             ///< a straight wall is below it; else it goes through the sheet
+    int face;                 ///< of its wall, a triangle of the solid
+    Eigen::Vector3d place;    ///< mm, in the middle of the wall
+    SheetSide skin;           ///< at which it is wider
+    bool land;                ///< a straight wall is below it; else it goes through the sheet
+    bool counterbore = false; ///< it has a floor
 };
 
-/// Found by walls across the sheet that lean at one angle, turn around an axis and face it. In the
-/// order of their first triangles.
+/// Found by walls across the sheet that lean at one angle, turn around an axis and face it, and by
+/// the open_counterbores(). In the order of their first triangles, counterbores last.
 /// @param told  those that are known
 std::vector<OpenSink> open_sinks(const TriMesh& solid, const ThinSolid& sheet, const std::vector<SunkHole>& told);
 

@@ -259,15 +259,4 @@ std::vector<RoundHole> round_holes(const TriMesh& solid, const Eigen::Matrix3Xd&
     return Search(solid, normal, thickness).holes();
 }
 
-std::vector<char> pieces_of(const std::vector<RoundHole>& holes, const SurfacePieces& pieces)
-{
-    std::vector<char> of_hole(pieces.piece.size(), 0), whole(size_t(pieces.count()), 1);
-    for (const RoundHole& hole : holes)
-        for (const int f : hole.wall)
-            of_hole[size_t(f)] = 1;
-    for (size_t f = 0; f < of_hole.size(); ++f)
-        whole[size_t(pieces.piece[f])] &= of_hole[f];
-    return whole;
-}
-
 } // namespace spia

@@ -2,7 +2,6 @@
 #include <vector>
 
 #include "engine/mesh/round_edge.h"
-#include "engine/mesh/surface_pieces.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -22,8 +21,5 @@ struct RoundHole {
 /// @param normal  per triangle its area vector, outwards
 /// @param thickness  mm, of the sheet, about
 std::vector<RoundHole> round_holes(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness);
-
-/// Per piece, whether all of it is of walls of holes.
-std::vector<char> pieces_of(const std::vector<RoundHole>& holes, const SurfacePieces& pieces);
 
 } // namespace spia

@@ -221,16 +221,9 @@ std::set<int> sunk_through(const std::vector<SunkHole>& holes, double thickness)
     return result;
 }
 
-SheetSide skin_of_middle(const std::vector<SunkHole>& holes)
-{
-    return cut_off_at(holes, SheetSide::outer) > cut_off_at(holes, SheetSide::inner) ? SheetSide::inner
-                                                                                     : SheetSide::outer;
-}
-
-std::set<int> wider_in_middle(const std::vector<SunkHole>& holes, double thickness)
+std::set<int> wider_in_middle(const std::vector<SunkHole>& holes, SheetSide from, double thickness)
 {
     std::set<int> result = sunk_through(holes, thickness);
-    const SheetSide from = skin_of_middle(holes);
     for (const SunkHole& hole : holes)
         if (hole.diameter == 0 || (hole.cut_off && hole.skin == from))
             result.insert(hole.hole);

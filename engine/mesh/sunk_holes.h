@@ -41,13 +41,10 @@ int sunk_in_bends(const std::vector<SunkHole>& holes);
 /// sheet: no straight wall is below.
 std::set<int> sunk_through(const std::vector<SunkHole>& holes, double thickness);
 
-/// At which skin fewer are cut off: a middle surface is made from that one.
-SheetSide skin_of_middle(const std::vector<SunkHole>& holes);
-
 /// The numbers of the holes whose edge in a middle surface is not their least diameter but where the
 /// wall crosses the middle of the sheet: those in bends, without a straight wall, or cut off at the
 /// skin that it is made from.
-std::set<int> wider_in_middle(const std::vector<SunkHole>& holes, double thickness);
+std::set<int> wider_in_middle(const std::vector<SunkHole>& holes, SheetSide from, double thickness);
 
 /// The same sheet with its outer skin called the inner one.
 ThinSolid sides_exchanged(const ThinSolid& sheet);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/open_counterbores.h"
 #include "engine/mesh/pick.h"
 #include "engine/mesh/round_holes.h"
 #include "engine/mesh/sheet_conditions.h"
@@ -97,6 +98,25 @@ ThinSolid result_of(const SolidInPieces& solid, double volume, double flipped)
     return result;
 }
 
+/// Per piece, whether it is of walls of holes or of floors of counterbores, whatever is opposite.
+std::vector<char> known_of_holes(const SolidInPieces& solid, double thickness)
+{
+    std::vector<char> of_hole(size_t(solid.mesh.triangles()), 0), whole(size_t(solid.pieces.count()), 1);
+    const auto take = [&](const std::vector<int>& faces) {
+        for (const int f : faces)
+            of_hole[size_t(f)] = 1;
+    };
+    for (const RoundHole& hole : round_holes(solid.mesh, solid.normal, thickness))
+        take(hole.wall);
+    for (const OpenCounterbore& each : open_counterbores(solid.mesh, solid.normal, thickness)) {
+        take(each.floor);
+        take(each.wall);
+    }
+    for (int f = 0; f < solid.mesh.triangles(); ++f)
+        whole[size_t(solid.piece(f))] &= of_hole[size_t(f)];
+    return whole;
+}
+
 } // namespace
 
 ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const Progress& progress)
@@ -121,7 +141,7 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     require_thin(solid, thickness, area);
 
     progress.checkpoint(0.6, "taking the sides apart");
-    const std::vector<char> of_hole = pieces_of(round_holes(mesh, solid.normal, thickness), solid.pieces);
+    const std::vector<char> of_hole = known_of_holes(solid, thickness);
     solid.sides = sheet_sides(solid.pieces, solid.places, thickness, of_hole);
     require_two_sides(solid, thickness, area);
     std::vector<SheetMark> marks;

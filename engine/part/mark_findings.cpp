@@ -72,11 +72,11 @@ std::vector<std::vector<const SunkHole*>> by_hole(const std::vector<SunkHole>& h
 }
 
 /// "the least diameter of each"
-std::string laid_flat(const std::vector<SunkHole>& holes, int count, Skin taken, double thickness)
+std::string laid_flat(const std::vector<SunkHole>& holes, int count, Skin taken, SheetSide side, double thickness)
 {
     if (taken != Skin::middle)
         return fmt::format("the diameters at the {} skin", name(taken));
-    const int wider = int(wider_in_middle(holes, thickness).size());
+    const int wider = int(wider_in_middle(holes, side, thickness).size());
     if (wider == 0)
         return "the least diameter of each";
     const std::string edges = wider == 1 ? "the edge where the wall crosses the middle of the sheet"
@@ -117,7 +117,7 @@ Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, 
                                deepest_mark, deepest_mark * sheet.thickness));
 }
 
-Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, double thickness,
+Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, SheetSide side, double thickness,
                    const std::vector<int>& source_face)
 {
     std::vector<MarkedPlace> marked;
@@ -127,7 +127,7 @@ Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, double thickn
                    fmt::format("{} at a skin than inside (a countersink, a counterbore or a chamfer): what is laid "
                                "flat has {}, and circles of the marks show where to sink; the first is a {}",
                                counted(int(marked.size()), "hole is wider", "holes are wider"),
-                               laid_flat(holes, int(marked.size()), taken, thickness), marked.front().what));
+                               laid_flat(holes, int(marked.size()), taken, side, thickness), marked.front().what));
 }
 
 } // namespace spia

@@ -18,9 +18,10 @@ Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, 
 /// The note on holes that are wider at a skin: with place, diameter and depth of each.
 /// @param holes  at least one
 /// @param taken  the surface that is laid flat
+/// @param side  the skin whose triangles it has
 /// @param thickness  mm
 /// @param source_face  as above
-Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, double thickness,
+Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, SheetSide side, double thickness,
                    const std::vector<int>& source_face);
 
 } // namespace spia

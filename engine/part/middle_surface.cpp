@@ -2,42 +2,66 @@
 
 #include <algorithm>
 #include <fmt/core.h>
-#include <set>
 #include <string>
 
 #include "engine/mesh/holes_over_bends.h"
 #include "engine/mesh/onto_surfaces.h"
-#include "engine/mesh/open_sinks.h"
 #include "engine/mesh/round_border.h"
+#include "engine/mesh/sunk_holes.h"
+#include "engine/part/mark_findings.h"
 
 namespace spia {
 
-SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
-                        const ThinSolidOptions& units)
+namespace {
+
+/// How many have no border of the hole at a skin, but their own.
+int cut_at(SheetSide skin, const std::vector<SunkHole>& holes, const std::vector<OpenSink>& open)
 {
-    const SheetSide made_from = skin_of_middle(holes);
-    if (const int most = cut_off_at(holes, made_from); most > 0)
+    const auto in_bend = [&](const SunkHole& hole) { return hole.diameter == 0 && hole.skin == skin; };
+    const auto above = [&](const OpenSink& sink) { return sink.land && sink.skin == skin; };
+    return cut_off_at(holes, skin) + int(std::ranges::count_if(holes, in_bend) + std::ranges::count_if(open, above));
+}
+
+/// "2 countersinks are open at a border, a bend or another hole, the first at 1, 2, 3"
+std::string counted_open(const std::vector<OpenSink>& sinks)
+{
+    const bool counterbores = std::ranges::all_of(sinks, &OpenSink::counterbore),
+               countersinks = std::ranges::none_of(sinks, &OpenSink::counterbore);
+    const int count = int(sinks.size());
+    const Eigen::Vector3d& place = sinks.front().place;
+    return fmt::format("{} open at a border, a bend or another hole, {}at {:.6g}, {:.6g}, {:.6g}",
+                       countersinks   ? counted(count, "countersink is", "countersinks are")
+                       : counterbores ? counted(count, "counterbore is", "counterbores are")
+                                      : counted(count, "sink is", "countersinks and counterbores are"),
+                       count > 1 ? "the first " : "", place.x(), place.y(), place.z());
+}
+
+} // namespace
+
+SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
+                        const std::vector<OpenSink>& open, const ThinSolidOptions& units)
+{
+    const int outer = cut_at(SheetSide::outer, holes, open), inner = cut_at(SheetSide::inner, holes, open);
+    const bool exchanged = outer > inner;
+    const SheetSide made_from = exchanged ? SheetSide::inner : SheetSide::outer;
+    if (const int cut = cut_off_at(holes, made_from); cut > 0)
         doubt(part, fmt::format("{} where the countersink is in the middle of the sheet, wider than the hole",
-                                counted(most,
+                                counted(cut,
                                         "sunk hole is cut off at the skin that the middle surface is made from: laid "
                                         "flat, its edge is",
                                         "sunk holes are cut off at the skin that the middle surface is made from: laid "
                                         "flat, their edges are")));
-    const auto not_least = [](int count) {
-        return count == 1
-                   ? "laid flat, its edge is about where the wall crosses the middle of the sheet, not its least "
-                     "diameter"
-                   : "laid flat, their edges are about where the walls cross the middle of the sheet, not their "
-                     "least diameters";
-    };
     if (const int bent = sunk_in_bends(holes); bent > 0)
-        doubt(part, fmt::format("{}: {}", counted(bent, "hole is sunk in a bend", "holes are sunk in bends"),
-                                not_least(bent)));
+        doubt(part, fmt::format("{} at the {} skin, and the least diameter only where a straight wall ends there",
+                                counted(bent, "hole is sunk in a bend: laid flat, its edge is that",
+                                        "holes are sunk in bends: laid flat, their edges are those"),
+                                of_skin(made_from)));
     if (const int through = int(sunk_through(holes, sheet.thickness).size()); through > 0)
-        doubt(part, fmt::format("{} no straight wall below: {}",
-                                counted(through, "sunk hole is cut off and has", "sunk holes are cut off and have"),
-                                not_least(through)));
-    const bool exchanged = made_from == SheetSide::inner;
+        doubt(part, counted(through,
+                            "sunk hole is cut off and has no straight wall below: laid flat, its edge is about where "
+                            "the wall crosses the middle of the sheet, not its least diameter",
+                            "sunk holes are cut off and have no straight wall below: laid flat, their edges are about "
+                            "where the walls cross the middle of the sheet, not their least diameters"));
     const ThinSolid from = exchanged ? sides_exchanged(sheet) : sheet;
     const std::vector<SunkHole> sunk = exchanged ? sunk_holes(part.mesh, from) : holes;
     SkinMesh skin = skin_of(part.mesh, from, Skin::middle, units);
@@ -56,24 +80,26 @@ SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vecto
     return skin;
 }
 
-void tell_open_sinks(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes)
+void tell_open_sinks(PartFile& part, const std::vector<OpenSink>& open, Skin taken, SheetSide side)
 {
-    const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
-    for (const bool land : {false, true}) {
-        const auto first = std::ranges::find(sinks, land, &OpenSink::land);
-        if (first == sinks.end())
-            continue;
-        const int count = int(std::ranges::count(sinks, land, &OpenSink::land));
-        const std::string text =
-            fmt::format("{} open at a border or at another hole, {}at {:.6g}, {:.6g}, {:.6g}",
-                        counted(count, "countersink is", "countersinks are"), count > 1 ? "the first " : "",
-                        first->place.x(), first->place.y(), first->place.z());
-        if (land)
-            part.notes.push_back(text + ": the hole below is laid flat, marks do not show where to sink");
-        else
-            doubt(part, text + ": no straight wall is below, and the edge that is laid flat lies where the wall "
-                               "crosses the middle of the sheet, unevenly; draw it at its least diameter");
-    }
+    std::vector<OpenSink> through, above, below;
+    for (const OpenSink& sink : open)
+        (!sink.land ? through : sink.skin == side ? above : below).push_back(sink);
+    if (!through.empty())
+        doubt(part, counted_open(through) + ": no straight wall is below, and the edge that is laid flat lies where "
+                                            "the wall crosses the middle of the sheet, unevenly; draw it at its least "
+                                            "diameter");
+    if (!above.empty() && taken == Skin::middle)
+        doubt(part, counted_open(above) + fmt::format(": others are sunk at the other skin, and what is laid flat is "
+                                                      "its edge at the {} skin, wider than the hole below; draw the "
+                                                      "hole",
+                                                      of_skin(side)));
+    else if (!above.empty())
+        part.notes.push_back(counted_open(above) + fmt::format(": its edge at the {} skin is laid flat, wider than the "
+                                                               "hole below",
+                                                               of_skin(side)));
+    if (!below.empty())
+        part.notes.push_back(counted_open(below) + ": the hole below is laid flat, marks do not show where to sink");
 }
 
 } // namespace spia

@@ -1,16 +1,19 @@
 #pragma once
 #include <vector>
 
-#include "engine/mesh/sunk_holes.h"
+#include "engine/mesh/open_sinks.h"
 #include "engine/part/part_file.h"
 
 namespace spia {
 
-/// Made from the skin at which fewer of the countersinks are cut off; seen from the outer one. Doubts what is not right there.
+/// Made from the skin at which fewer of the sinks are cut off: the straight wall below a sink ends
+/// at the other one, and there the border is that of the hole. Seen from the outer skin. Doubts
+/// what is not right.
 SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
-                        const ThinSolidOptions& units);
+                        const std::vector<OpenSink>& open, const ThinSolidOptions& units);
 
-/// Of countersinks that are no holes all around.
-void tell_open_sinks(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes);
+/// Of sinks that are no holes all around: what of them is laid flat.
+/// @param taken  the surface that is, made of the triangles of a skin
+void tell_open_sinks(PartFile& part, const std::vector<OpenSink>& open, Skin taken, SheetSide side);
 
 } // namespace spia

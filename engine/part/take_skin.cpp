@@ -222,11 +222,11 @@ bool decide(PartFile& part, const ThinSolid& sheet)
 
 /// The surface that is wanted. Where none was asked for and there is no middle one the outer skin is better than nothing, and a doubt.
 /// @param wanted  set to the one that is taken
-SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes, Skin& wanted,
-                     bool asked, const ThinSolidOptions& units)
+SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
+                     const std::vector<OpenSink>& open, Skin& wanted, bool asked, const ThinSolidOptions& units)
 {
     try {
-        SkinMesh skin = wanted == Skin::middle ? middle_surface(part, sheet, holes, units)
+        SkinMesh skin = wanted == Skin::middle ? middle_surface(part, sheet, holes, open, units)
                                                : skin_of(part.mesh, sheet, wanted, units);
         if (skin.straightened > 0)
             part.notes.push_back(fmt::format(
@@ -291,11 +291,10 @@ void note_skin(PartFile& part, bool uneven_told)
 {
     const SolidOrigin& solid = *part.solid;
     const int taken = solid.side == SheetSide::inner ? solid.inner_faces : solid.outer_faces;
-    const std::string what =
-        solid.skin == Skin::middle
-            ? fmt::format("middle surface, from the {} of its {} skin,", counted(taken, "face", "faces"),
-                          of_skin(solid.side))
-            : fmt::format("{} skin of {}", name(solid.skin), counted(taken, "face", "faces"));
+    const std::string what = solid.skin == Skin::middle
+                                 ? fmt::format("middle surface, from the {} of its {} skin,",
+                                               counted(taken, "face", "faces"), of_skin(solid.side))
+                                 : fmt::format("{} skin of {}", name(solid.skin), counted(taken, "face", "faces"));
     part.notes.push_back(fmt::format("a solid of {}{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
                                      "surface of it)",
                                      counted(solid.faces, "face", "faces"),
@@ -350,9 +349,10 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
         const ThinSolidOptions units = faces_of(part, normals, surface);
         Skin wanted = options.skin.value_or(Skin::middle);
         const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
-        tell_open_sinks(part, sheet, holes);
-        SkinMesh skin = wanted_skin(part, sheet, holes, wanted, options.skin.has_value(), units);
+        const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
+        SkinMesh skin = wanted_skin(part, sheet, holes, sinks, wanted, options.skin.has_value(), units);
         const bool uneven = !measured && doubt_uneven_bends(part, sheet, skin.side, surface);
+        tell_open_sinks(part, sinks, wanted, skin.side);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
         part.solid = {wanted,
                       sheet.thickness,
@@ -377,7 +377,7 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             part.solid->marks.push_back(std::move(row));
         std::optional<Finding> sunk;
         if (!holes.empty())
-            sunk = finding_of(holes, wanted, sheet.thickness, part.source_face);
+            sunk = finding_of(holes, wanted, skin.side, sheet.thickness, part.source_face);
         part.thickness_mm = sheet.thickness;
         replace_mesh(part, skin);
         note_skin(part, uneven);

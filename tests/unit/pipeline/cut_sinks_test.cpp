@@ -1,0 +1,240 @@
+// Sinks that a border, another hole or a bend cuts, at either skin: what is cut is the hole below.
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "engine/exchange/read_part.h"
+#include "engine/forming/material/material_library.h"
+#include "engine/mesh/topology.h"
+#include "engine/pipeline/run_chain.h"
+#include "engine/pipeline/session.h"
+#include "tests/support/cad/bent_solid.h"
+#include "tests/support/profile.h"
+#include "tests/support/seeded_random.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+using shapes::BentSolid;
+using shapes::CadForm;
+using shapes::Cutout;
+using shapes::Sink;
+using std::numbers::pi;
+
+constexpr double k = 0.42;
+
+/// What of a sink is in the sheet.
+enum class Cut { none, sink_only, half, on_border, less_than_half, sink_alone, another_hole, bend };
+constexpr Cut cuts[] = {Cut::none,           Cut::sink_only,  Cut::half,         Cut::on_border,
+                        Cut::less_than_half, Cut::sink_alone, Cut::another_hole, Cut::bend};
+
+const char* name(Cut cut)
+{
+    constexpr const char* names[] = {"whole",
+                                     "a border cuts the sink alone",
+                                     "a border cuts both",
+                                     "on a border",
+                                     "less than half is there",
+                                     "the sink alone is there",
+                                     "a hole cuts both",
+                                     "a bend cuts the sink"};
+    return names[size_t(cut)];
+}
+
+/// One in a flat plate, an L or the web of a U, at a given skin.
+BentSolid cut_sink(std::uint64_t seed, int bends, bool left, bool counterbore, Cut cut)
+{
+    shapes::SeededRandom random(seed + 7000);
+    BentSolid solid;
+    solid.kind = fmt::format("seed {}, {} bends, {} side, {}, {}", seed, bends, left ? "left" : "right",
+                             counterbore ? "counterbore" : "countersink", name(cut));
+    const double t = solid.thickness = random.between(1.5, 4);
+    Sink sink;
+    sink.left = left;
+    sink.counterbore = counterbore;
+    sink.hole = t * random.between(1, 2);
+    sink.depth = t * random.between(0.3, 0.8);
+    sink.wide = sink.hole + (counterbore ? t * random.between(0.6, 1.5)
+                                         : sink.depth * std::tan(random.between(0.6, cut == Cut::bend ? 0.7 : 1.05)));
+    const double leg = 6 * sink.wide, ring = sink.wide - sink.hole, share = random.between(0.3, 0.7);
+    solid.width = 5 * sink.wide;
+    solid.leg = {leg, 3 * sink.wide, 3 * sink.wide};
+    solid.leg.resize(size_t(bends) + 1);
+    if (bends == 2)
+        std::swap(solid.leg[0], solid.leg[1]);
+    sink.leg = bends == 2 ? 1 : 0;
+    for (int b = 0; b < bends; ++b)
+        // Over the hollow side of a sharp bend a sink would be cut into the other leg.
+        solid.bend.push_back({t * (cut == Cut::bend ? random.between(2, 3) : random.between(0.5, 2)),
+                              random.between(0.6, cut == Cut::bend ? 1 : 1.6)});
+    const std::map<Cut, double> y = {{Cut::sink_only, sink.hole + share * ring},
+                                     {Cut::half, share * sink.hole},
+                                     {Cut::on_border, 0},
+                                     {Cut::less_than_half, -share * sink.hole},
+                                     {Cut::sink_alone, -sink.hole - share * ring}};
+    sink.centre = {leg * random.between(0.48, 0.52), y.contains(cut) ? y.at(cut) : solid.width / 2};
+    if (cut == Cut::bend)
+        sink.centre.x() = leg - sink.hole - share * ring;
+    if (cut == Cut::another_hole) {
+        Cutout hole;
+        hole.leg = sink.leg;
+        hole.radius = 0.8 * sink.hole;
+        hole.length = hole.width = 2 * hole.radius;
+        hole.centre = sink.centre + Eigen::Vector2d(1.3 * sink.hole, 0);
+        solid.cutout = {hole};
+    }
+    solid.sink = {sink};
+    return solid;
+}
+
+/// mm2, what of a circle is on one side of a line. @param from  mm, its centre from the line
+double segment(double radius, double from)
+{
+    const double h = std::clamp(from / radius, -1., 1.);
+    return radius * radius * (pi - std::acos(h) + h * std::sqrt(1 - h * h));
+}
+
+/// mm2, of the holes in closed form.
+double holes_of(const BentSolid& solid)
+{
+    const Sink& sink = solid.sink.front();
+    double area = segment(sink.hole, sink.centre.y());
+    if (!solid.cutout.empty()) {
+        const double r = sink.hole, s = solid.cutout[0].radius, d = solid.cutout[0].centre.x() - sink.centre.x(),
+                     x = (d * d + r * r - s * s) / (2 * d); // both circles meet there
+        area += pi * s * s - (pi * r * r - segment(r, x)) - (pi * s * s - segment(s, d - x));
+    }
+    return area;
+}
+
+Session solved_with_k(const std::filesystem::path& file)
+{
+    Session session;
+    session.file = file;
+    session.options.k_factor = constant_k(k);
+    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    return completed(run_chain(std::move(session), Stage::read, Stage::solve));
+}
+
+/// mm, how far within the circle of the sink the border of the part is off the hole.
+double off_hole(const BentSolid& solid, const TriMesh& part)
+{
+    const Sink& sink = solid.sink.front();
+    shapes::Profile profile({0, 0}, 0);
+    profile.straight(solid.leg[0]);
+    for (size_t b = 0; b < solid.bend.size(); ++b)
+        profile.bend(solid.bend[b].inner_radius + solid.thickness / 2, solid.bend[b].angle).straight(solid.leg[b + 1]);
+    const auto& leg = profile.pieces()[2 * size_t(sink.leg)];
+    const Eigen::Vector2d centre = profile.at(leg.from + sink.centre.x()),
+                          along(std::cos(leg.heading), std::sin(leg.heading));
+    const double r = sink.hole, c = sink.centre.y(), shortest = std::abs(c) < r ? std::sqrt(r * r - c * c) : 0;
+    double off = 0;
+    for (const std::vector<int>& loop : boundary_loops(part))
+        for (const int v : loop) {
+            const Eigen::Vector3d p = part.position.col(v);
+            const Eigen::Vector2d from = Eigen::Vector2d(p.x(), p.z()) - centre;
+            const double s = along.dot(from), y = p.y() - c, distance = std::hypot(s, y);
+            if (std::abs(from.x() * along.y() - from.y() * along.x()) > solid.thickness / 4 ||
+                distance > 1.01 * sink.wide)
+                continue; // of another leg, or far away
+            double own = std::abs(distance - r);
+            if (std::abs(p.y()) < 1e-6)
+                own = std::max(0., shortest - std::abs(s));
+            if (!solid.cutout.empty())
+                own = std::min(own, std::abs(std::hypot(s - (solid.cutout[0].centre.x() - sink.centre.x()), y) -
+                                             solid.cutout[0].radius));
+            off = std::max(off, own);
+        }
+    return off;
+}
+
+void expect_hole(const ScratchFolder& folder, const BentSolid& solid, CadForm form)
+{
+    SCOPED_TRACE(solid.kind + (form == CadForm::step ? ", STEP" : ", STL"));
+    const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+    shapes::write_bent_solid(file, solid, form);
+    const Session session = solved_with_k(file);
+    const PartFile& part = *session.part;
+    ASSERT_TRUE(part.solid);
+    EXPECT_TRUE(part.doubts.empty()) << part.doubts.front();
+    // Of a mesh, where chords of two holes meet, less than they are off their arcs.
+    EXPECT_LT(off_hole(solid, part.mesh), form == CadForm::step ? 1e-5 : 0.02);
+    ASSERT_EQ(session.bends->bends.size(), solid.bend.size());
+    for (const SheetBend& bend : session.bends->bends) {
+        EXPECT_TRUE(bend.laid) << bend.why_not;
+        EXPECT_TRUE(std::ranges::any_of(solid.bend, [&](const shapes::SolidBend& own) {
+            return std::abs(own.inner_radius - bend.inner_radius) < 2e-3 && std::abs(own.angle - bend.angle) < 1e-3;
+        })) << bend.inner_radius;
+    }
+    const Blank& blank = session.blank->blank;
+    const Eigen::Vector2d size = blank.position.rowwise().maxCoeff() - blank.position.rowwise().minCoeff();
+    const double length = solid.developed(k), width = solid.width;
+    EXPECT_NEAR(size.maxCoeff(), std::max(length, width), form == CadForm::step ? 1e-4 : 1e-2);
+    EXPECT_NEAR(size.minCoeff(), std::min(length, width), form == CadForm::step ? 1e-4 : 1e-2);
+    if (form == CadForm::step) { // chords of 3 degrees, of a whole circle those of the sink
+        const Sink& sink = solid.sink.front();
+        const double chords = sink.centre.y() > sink.wide ? 0.01 : 1e-3;
+        const double holes = holes_of(solid);
+        EXPECT_NEAR(area(TriMesh{blank.position.colwise().homogeneous(), part.mesh.triangle}), length * width - holes,
+                    chords * holes + 1e-3);
+    }
+}
+
+} // namespace
+
+TEST(SunkHoles, ThatAreCutLeaveTheHoleBelowThemWhicheverSkinTheyAreAt)
+{
+    const ScratchFolder folder;
+    std::uint64_t seed = 0;
+    for (const int bends : {0, 1, 2})
+        for (const bool left : {true, false})
+            for (const Cut cut : cuts)
+                if (cut != Cut::bend || bends > 0)
+                    expect_hole(folder, cut_sink(++seed, bends, left, false, cut), CadForm::step);
+}
+
+TEST(SunkHoles, ThatAreCutLeaveTheHoleBelowThemInMeshesAsWell)
+{
+    const ScratchFolder folder;
+    std::uint64_t seed = 100;
+    for (const int bends : {0, 1, 2})
+        for (const bool left : {true, false})
+            for (const Cut cut : {Cut::sink_only, Cut::half, Cut::on_border, Cut::another_hole})
+                expect_hole(folder, cut_sink(++seed, bends, left, false, cut), CadForm::stl);
+}
+
+TEST(SunkHoles, ThatAreCounterboresAndCutLeaveTheHoleBelowThem)
+{
+    const ScratchFolder folder;
+    std::uint64_t seed = 200;
+    for (const int bends : {0, 1, 2})
+        for (const bool left : {true, false})
+            for (const Cut cut : {Cut::none, Cut::sink_only, Cut::half, Cut::on_border, Cut::less_than_half})
+                expect_hole(folder, cut_sink(++seed, bends, left, true, cut), CadForm::step);
+}
+
+TEST(SunkHoles, ThatAreCutAtBothSkinsAreDoubted)
+{
+    const ScratchFolder folder;
+    for (const int bends : {0, 1})
+        for (const bool counterbore : {false, true}) {
+            BentSolid solid = cut_sink(300, bends, true, counterbore, Cut::on_border);
+            solid.sink.push_back(solid.sink.front());
+            solid.sink.back().left = false;
+            solid.sink.back().centre.y() = solid.width;
+            SCOPED_TRACE(solid.kind);
+            shapes::write_bent_solid(folder / "part.step", solid);
+            const PartFile part = read_part(folder / "part.step");
+            ASSERT_TRUE(part.solid);
+            EXPECT_TRUE(std::ranges::any_of(part.doubts, [](const std::string& text) {
+                return text.find("wider than the hole below") != std::string::npos;
+            }));
+        }
+}
+
+} // namespace spia
