@@ -32,12 +32,14 @@ CadOptions cad_options(const CadArguments& arguments, const std::filesystem::pat
 struct RemeshArguments {
     bool wanted = false, unwanted = false;
     std::optional<double> size, tolerance;             ///< mm; not given: chosen from the part
-    std::optional<double> least_angle_deg, edge_ratio; ///< targets for the triangles, remeshed or not
+    std::optional<double> least_angle_deg, edge_ratio; ///< targets for the triangles, remeshed or
+                                                       ///< not
 };
 
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, report, process;
-    std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: middle
+    std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty:
+                                                     ///< middle
     std::string k_factor;                            ///< a number, a name or a file; empty: 0.5
     std::vector<std::string> parts;                  ///< of a solver deck, ids or names
     std::optional<double> thickness;                 ///< mm; not given: that of the part, else 1
@@ -51,7 +53,8 @@ struct RunArguments {
     std::vector<int> degree = {3, 3}; ///< of the surface, along u and v
     int max_control_points = FitOptions{}.max_control_points;
     bool fill_holes = false;
-    std::string deform;                     ///< file of a deformation of the finished surface; empty: none
+    std::string deform;                     ///< file of a deformation of the finished surface;
+                                            ///< empty: none
     std::string patches = "one";            ///< one, auto, or a file of cuts
     bool smooth_joins = false;              ///< of patches
     std::optional<double> patch_edges = {}; ///< degrees, of edges on which patches end
@@ -112,26 +115,38 @@ struct UnfoldArguments {
     std::filesystem::path to_part, to_blank; ///< files of lines to carry over
     std::vector<std::string> formats;
     bool automatic = false;
-    std::string skin, material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
-    std::string k_factor;                                                 ///< as for run
-    std::vector<std::string> parts;                                       ///< of a solver deck, ids or names
-    std::vector<double> rolling;                                          ///< direction of the sheet; empty: none
-    std::optional<double> thickness;                                      ///< mm; not given: that of the deck, else 1
-    int root = 0;        ///< of --auto: the region that stays, from 1; 0: the largest flat one
-    std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
-    std::string surface; ///< grid and surface of which blank: "steps", "polished"; empty: none
-    std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless others are asked for
-    std::optional<double> tolerance;          ///< mm, of that surface; not given: it runs through the grid
+    /// of the files; empty name: the part's
+    std::string skin, material = "mild_steel", unit, seam = "auto", name;
+    std::string k_factor; ///< as for run
+    /// of a solver deck, ids or names
+    std::vector<std::string> parts;
+    /// direction of the sheet; empty: none
+    std::vector<double> rolling;
+    /// mm; not given: that of the deck, else 1
+    std::optional<double> thickness;
+    int root = 0;                             ///< of --auto: the region that stays, from 1; 0: the
+                                              ///< largest flat one
+    std::string redo;                         ///< "auto", or the step, from 1, from which on a
+                                              ///< script is run again; empty: all of it
+    std::string surface;                      ///< grid and surface of which blank: "steps",
+                                              ///< "polished"; empty: none
+    std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless
+                                              ///< others are asked for
+    std::optional<double> tolerance;          ///< mm, of that surface; not given: it runs through
+                                              ///< the grid
     RemeshArguments remesh;
-    bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
+    bool polish = false; ///< also the blank of the whole part at once, started from that of the
+                         ///< steps
     bool strict = false, keep_largest = false;
     std::optional<double> weld; ///< see set_welding()
     CadArguments cad;
     DxfArguments dxf;
 };
 
-/// Unfolds a part step by step, as a script says or by steps of its own, writes the states and prints a summary.
-/// @returns 0, 1 if the result is poorer or the script did not fit and `strict` was asked for, or 3 if a step had no result
+/// Unfolds a part step by step, as a script says or by steps of its own, writes the states and
+/// prints a summary.
+/// @returns 0, 1 if the result is poorer or the script did not fit and `strict` was asked for, or 3
+/// if a step had no result
 int unfold(const UnfoldArguments& arguments);
 
 /// Prints the built-in grades. @returns 0
@@ -140,7 +155,8 @@ int materials();
 struct FitArguments {
     std::filesystem::path table, out;
     std::string law = "best", name; ///< empty name: the stem of `out`
-    std::string data, strain;       ///< engineering or true; fraction or percent; empty: as the heading says
+    std::string data, strain;       ///< engineering or true; fraction or percent; empty: as the
+                                    ///< heading says
     std::optional<double> young;    ///< MPa
     double poisson = 0.3, density = 7850;
     std::vector<double> r = {1, 1, 1};
@@ -152,7 +168,8 @@ int fit_material(const FitArguments& arguments);
 /// Whether the part is remeshed, and what its triangles should be like.
 void set_remeshing(ReadOptions& options, const RemeshArguments& arguments);
 
-/// @param gap  mm, up to which open edges are joined; 0: what is at one place; not given: as the format needs
+/// @param gap  mm, up to which open edges are joined; 0: what is at one place; not given: as the
+/// format needs
 void set_welding(ReadOptions& options, std::optional<double> gap);
 MeshTargets mesh_targets(const RemeshArguments& arguments);
 

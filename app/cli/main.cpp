@@ -148,7 +148,8 @@ void add_weld(CLI::App* command, std::optional<double>& gap)
         ->type_name("[MM]");
 }
 
-/// The words of the command line. The number behind --weld may be left out, which CLI11 would take the next word for.
+/// The words of the command line. The number behind --weld may be left out, which CLI11 would take
+/// the next word for.
 std::vector<std::string> arguments_of(int count, char** values)
 {
     std::vector<std::string> words;

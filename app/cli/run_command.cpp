@@ -86,7 +86,8 @@ SessionOptions options(const RunArguments& arguments)
     result.grid.method = arguments.grid_method == "coons"      ? GridMethod::coons
                          : arguments.grid_method == "harmonic" ? GridMethod::harmonic
                                                                : GridMethod::automatic;
-    if (!(arguments.line_grading >= 0 && arguments.line_grading <= 0.9)) // a NaN passes the check of the option
+    // a NaN passes the check of the option
+    if (!(arguments.line_grading >= 0 && arguments.line_grading <= 0.9))
         throw InputError("--to-bends is a share of the lines, from 0 to 0.9");
     result.grid.line_grading = arguments.line_grading;
     result.grid.even_cells = arguments.even_cells;
@@ -104,7 +105,8 @@ SessionOptions options(const RunArguments& arguments)
         result.patches->smooth_joins = true;
     if (arguments.patch_edges && !result.patches)
         throw InputError("--patch-edges is for patches; ask for them with --patches auto, or leave it out");
-    if (arguments.patch_edges && !(*arguments.patch_edges >= 1 && *arguments.patch_edges <= 180)) // a NaN, likewise
+    // a NaN, likewise
+    if (arguments.patch_edges && !(*arguments.patch_edges >= 1 && *arguments.patch_edges <= 180))
         throw InputError("--patch-edges is an angle in degrees, from 1 to 180");
     if (arguments.patch_edges && (!result.patches->cuts.empty() || !result.patches->corners.empty()))
         throw InputError(

@@ -18,7 +18,8 @@ void require_surface_place(const UnfoldArguments& arguments, const PartFile& par
 ChainRun surface_of_steps(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,
                           const FlattenOptions& options);
 
-/// Writes the files of `spia run` and its report into the folder of the arguments. @returns the files
+/// Writes the files of `spia run` and its report into the folder of the arguments. @returns the
+/// files
 std::vector<std::filesystem::path> write_surface(const UnfoldArguments& arguments, const ChainRun& made);
 
 } // namespace spia::cli

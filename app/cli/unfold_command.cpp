@@ -149,7 +149,8 @@ std::optional<PolishedBlank> polished_blank(const PartFile& part, const UnfoldRu
     try {
         PolishedBlank polished = polish(part.mesh, run, options, display.progress());
         display.done(polished.whole.report.seconds);
-        // It lies on the blank of the steps, whose rolling direction is along x, area by area: its own edges may be turned a little.
+        // It lies on the blank of the steps, whose rolling direction is along x, area by area: its
+        // own edges may be turned a little.
         Eigen::Matrix2Xd& flat = polished.whole.blank.position;
         flat =
             upright(part.mesh, flat,
@@ -177,7 +178,8 @@ std::filesystem::path script_file(const UnfoldArguments& arguments)
     return arguments.folder / (stem_of(arguments) + "-script.json");
 }
 
-/// What --redo means; 0: as many states as hold. @throws InputError if it is neither auto nor the number of a step
+/// What --redo means; 0: as many states as hold. @throws InputError if it is neither auto nor the
+/// number of a step
 size_t redone_from(const std::string& text)
 {
     size_t step = 0;
@@ -248,8 +250,8 @@ bool holds_as_much(const UnfoldArguments& arguments, const PartFile& part, const
     }
 }
 
-/// What a later run can go on from, as soon as the steps are done or broken off: the states, and the script of --auto. What an
-/// earlier run wrote beside them goes.
+/// What a later run can go on from, as soon as the steps are done or broken off: the states, and
+/// the script of --auto. What an earlier run wrote beside them goes.
 /// @param kept states that are in their file already
 std::vector<std::filesystem::path> keep_states(const UnfoldArguments& arguments, const PartFile& part,
                                                const BendMap& map, const FlattenOptions& options,
@@ -467,7 +469,8 @@ int unfold(const UnfoldArguments& arguments)
         poorer.push_back(std::move(text));
     if (surface)
         for (std::string& text : spia::shortcomings(surface->session))
-            if (std::find(poorer.begin(), poorer.end(), text) == poorer.end()) // both doubt the part
+            // both doubt the part
+            if (std::find(poorer.begin(), poorer.end(), text) == poorer.end())
                 poorer.push_back(std::move(text));
     for (const std::string& text : poorer)
         say("WARNING   {}\n", text);

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 namespace spia::viewer {
 namespace {
 
-/// Flat points in space, turned and moved as near as can be to others of the same number, by least squares.
-/// [W. Kabsch, A solution for the best rotation to relate two sets of vectors, 1976]
+/// Flat points in space, turned and moved as near as can be to others of the same number, by least
+/// squares. [W. Kabsch, A solution for the best rotation to relate two sets of vectors, 1976]
 Eigen::Matrix3Xd laid_beside(const Eigen::Matrix2Xd& flat, const Eigen::Matrix3Xd& part)
 {
     Eigen::Matrix3Xd from = Eigen::Matrix3Xd::Zero(3, flat.cols());
@@ -156,7 +156,8 @@ private:
     std::vector<std::vector<uint8_t>> rasters_;
 };
 
-/// Numbered pictures. They are made in a folder of their own, and take their places when all are there.
+/// Numbered pictures. They are made in a folder of their own, and take their places when all are
+/// there.
 class Animation::Series : public Animation::Files {
 public:
     explicit Series(const SaveAnimation& wanted) : file_(fs::absolute(wanted.file))
@@ -230,7 +231,8 @@ Animation::Animation(const SaveAnimation& wanted, const ViewerState& state, std:
     fix_range(shown_);
     Camera& camera = shown_.view.camera[size_t(View::part)];
     const bool field = shown_.view.field_on_steps;
-    constexpr double beside = 0.06; // of the width: the target of a step reaches beyond what lies on it
+    constexpr double beside = 0.06; // of the width: the target of a step reaches beyond what lies
+                                    // on it
     const double scale = picture_scale(wanted.width, wanted.height),
                  around = 24 * scale + (field ? 0 : beside * wanted.width),
                  legend = wanted.legend && field ? 100 * scale : 0;
@@ -246,7 +248,8 @@ Animation::~Animation() { cancel(); }
 
 Picture Animation::picture(Renderer& renderer, ViewerModel& model, double share, int width, int height)
 {
-    constexpr double begun = 1e-6; // of the way: the part itself, but with the field that its forming has given it
+    constexpr double begun = 1e-6; // of the way: the part itself, but with the field that its
+                                   // forming has given it
     shown_.view.unfolded = std::max(begun, eased(end_ * share));
     if (steps_ && !shown_.view.field_on_steps)
         shown_.view.step = int(std::ceil(shown_.view.unfolded)) - 1;

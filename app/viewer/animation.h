@@ -11,12 +11,14 @@
 
 namespace spia::viewer {
 
-/// The document with the blank of one step as if it were a state of unfolding step by step, laid beside the part by the turn that
-/// brings it nearest: so the way from one to the other can be shown. @throws InputError if there is no blank
+/// The document with the blank of one step as if it were a state of unfolding step by step, laid
+/// beside the part by the turn that brings it nearest: so the way from one to the other can be
+/// shown. @throws InputError if there is no blank
 Document blank_as_state(const Document& document);
 
-/// An animation on its way into a file. The window draws one picture a frame and stays alive; a thread makes files of them. What is
-/// shown is the state as it was when the animation was asked for.
+/// An animation on its way into a file. The window draws one picture a frame and stays alive; a
+/// thread makes files of them. What is shown is the state as it was when the animation was asked
+/// for.
 class Animation {
 public:
     /// @param wake  called on the thread when it has done something
@@ -24,12 +26,14 @@ public:
     Animation(const SaveAnimation& wanted, const ViewerState& state, std::function<void()> wake);
     ~Animation();
 
-    /// Draws the next picture, unless the thread has enough to do; call once a frame. @throws as picture_of_view()
+    /// Draws the next picture, unless the thread has enough to do; call once a frame. @throws as
+    /// picture_of_view()
     void draw_next(Renderer& renderer, ViewerModel& model);
     void cancel() { *cancelled_ = true; }
     bool ended() const;
     double fraction() const;
-    /// Once it has ended: the files. None: it was cancelled, nothing is left behind. @throws ExchangeError
+    /// Once it has ended: the files. None: it was cancelled, nothing is left behind. @throws
+    /// ExchangeError
     std::vector<std::filesystem::path> take();
 
 private:

@@ -29,8 +29,8 @@ int in_layout(int key, int scan_code)
 
 constexpr int first_width = 1440, first_height = 900;
 
-/// Of the first screen, without what the desktop keeps for itself and the frame of a window; in pixels at content scale 1,
-/// as sizes of new windows are told.
+/// Of the first screen, without what the desktop keeps for itself and the frame of a window; in
+/// pixels at content scale 1, as sizes of new windows are told.
 std::pair<int, int> room_on_screen()
 {
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();

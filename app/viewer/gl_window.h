@@ -25,7 +25,8 @@ public:
     static Picture picture(int width, int height);
     /// Keys that were pressed since this was last emptied.
     static std::vector<KeyPress>& keys();
-    /// Between the backend's part of a frame and ImGui's: the mouse is where it was pressed or let go since the last frame.
+    /// Between the backend's part of a frame and ImGui's: the mouse is where it was pressed or let
+    /// go since the last frame.
     static void place_mouse();
     /// Where the mouse went with a button down since the last call.
     static std::vector<glm::dvec2> take_path();

@@ -213,7 +213,8 @@ std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& mode
                                            const ViewerReportOptions& options)
 {
     constexpr int width = 1200, height = 800;
-    constexpr float larger = 1.3f;                                                    // on paper they are small
+    // on paper they are small
+    constexpr float larger = 1.3f;
     const PictureContent content{.ground = !options.standard_look, .larger = larger}; // white paper
     constexpr const char* standard_titles[] = {"Part: thinning, smooth (each vertex the mean of its faces)",
                                                "Blank: the same, with the corners of the grid",

@@ -13,17 +13,20 @@ struct PictureContent {
     float larger = 1;   ///< lines and letters, than picture_scale() has them
 };
 
-/// How much larger than at content scale 1 lines and letters are drawn, so that they look alike in pictures of all sizes.
+/// How much larger than at content scale 1 lines and letters are drawn, so that they look alike in
+/// pictures of all sizes.
 float picture_scale(int width, int height);
 
-/// A picture of one view at any size, drawn aside from the window: the scene, over it legend and labels as the panels
-/// draw them. Needs the context of OpenGL; leaves ImGui's as it is.
+/// A picture of one view at any size, drawn aside from the window: the scene, over it legend and
+/// labels as the panels draw them. Needs the context of OpenGL; leaves ImGui's as it is.
 /// @param state what is shown, and its camera; it need not be the model's
-/// @throws Error if OpenGL fails; InputError if the size is not positive or too large for the memory
+/// @throws Error if OpenGL fails; InputError if the size is not positive or too large for the
+/// memory
 Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerState& state, SceneCache& cache, View view,
                         int width, int height, const PictureContent& content = {});
 
-/// The whole window laid out for another size, without dialogs: with a longer side the same layout, but finer.
+/// The whole window laid out for another size, without dialogs: with a longer side the same layout,
+/// but finer.
 /// @param screen size of the window, pixels
 /// @throws as picture_of_view()
 Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& cache, const Ui& ui, glm::ivec2 screen,

@@ -6,11 +6,12 @@
 
 namespace spia::viewer {
 
-/// The preferences of the user: begins with those in their file, and keeps there at once what is changed of them, in their dialog or
-/// by a key.
+/// The preferences of the user: begins with those in their file, and keeps there at once what is
+/// changed of them, in their dialog or by a key.
 class PreferenceKeeper {
 public:
-    /// @param scripted  a script runs: it begins with the standard ones, so that it does the same everywhere, and keeps none
+    /// @param scripted  a script runs: it begins with the standard ones, so that it does the same
+    /// everywhere, and keeps none
     /// @param light     this time, whatever is preferred
     PreferenceKeeper(ViewerModel& model, bool scripted, bool light);
     void follow(ViewerModel& model); ///< once a frame

@@ -6,8 +6,9 @@
 
 namespace spia::viewer {
 
-/// Views on their way to where an action has sent them: a quarter of a second, slowly away and slowly there. The state has the
-/// cameras that are shown; what the user does meanwhile is done where the way ends.
+/// Views on their way to where an action has sent them: a quarter of a second, slowly away and
+/// slowly there. The state has the cameras that are shown; what the user does meanwhile is done
+/// where the way ends.
 class ViewGlide {
 public:
     explicit ViewGlide(ViewerModel& model) : model_(model) {}
@@ -15,7 +16,8 @@ public:
     bool runs() const { return way_.has_value(); }
     /// Before an action is carried out: another way ends.
     void before(const Action& action);
-    /// After the actions of a frame. @param may  whether a glide would be seen as one, else the views are there at once
+    /// After the actions of a frame. @param may whether a glide would be seen as one, else the
+    /// views are there at once
     /// @param now  seconds of the clock that follow() gets, too
     void begin(bool may, double now);
     /// Once a frame: a step of the way, unless the user has moved a view meanwhile.

@@ -66,7 +66,8 @@ public:
         int settle = 3;
         while (!quit_) {
             const bool was_moving = moving();
-            // What the last frame has left to be drawn or done is no event: nobody would wake the window for it.
+            // What the last frame has left to be drawn or done is no event: nobody would wake the
+            // window for it.
             const bool unfinished = GlWindow::news() || images_.any_late() || !ui_.keys_later.empty();
             const bool moves =
                 unfinished || !script_.ended() || !queue_.empty() || files_.drawing() || settle > 0 || finishing();
@@ -85,7 +86,8 @@ public:
                                                       : 60; // work is kept now and then
                 glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? std::min(0.4, until) : until);
             }
-            constexpr int frames_to_settle = 3; // until everything that follows from an event has its place
+            constexpr int frames_to_settle = 3; // until everything that follows from an event has
+                                                // its place
             if (unfinished)
                 GlWindow::news() = true;
             settle = std::exchange(GlWindow::news(), false) ? frames_to_settle : std::max(0, settle - 1);
@@ -127,8 +129,8 @@ private:
         return window_.content_scale() * float(model_.state().preferences.interface_percent) / 100;
     }
 
-    /// Something that no action has caught, say a picture that cannot be drawn: the work is kept for the next start, and
-    /// the program goes on unless it happens again and again.
+    /// Something that no action has caught, say a picture that cannot be drawn: the work is kept
+    /// for the next start, and the program goes on unless it happens again and again.
     void frame_failed(std::string text)
     {
         end_broken_frame();
@@ -207,7 +209,8 @@ private:
         }
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
-        if (const float scale = wanted_scale(); scale != ui_.scale) { // on another screen, or preferred
+        // on another screen, or preferred
+        if (const float scale = wanted_scale(); scale != ui_.scale) {
             ui_.scale = scale;
             ImGui::GetIO().Fonts->Clear();
             ui_.fonts = load_fonts(scale);
@@ -219,7 +222,8 @@ private:
             dark_ = model_.state().view.dark;
             apply_theme(*dark_, ui_.scale);
         }
-        // The dialog of files has its own keys for its list, a view that has the keyboard as well; Alt leads from it to the menus.
+        // The dialog of files has its own keys for its list, a view that has the keyboard as well;
+        // Alt leads from it to the menus.
         ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
         const bool alt = glfwGetKey(window_.get(), GLFW_KEY_LEFT_ALT) == GLFW_PRESS ||
                          glfwGetKey(window_.get(), GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
@@ -260,8 +264,8 @@ private:
                 return PictureOnScreen{reinterpret_cast<ImTextureID>(uintptr_t(shown.texture)), shown.width,
                                        shown.height};
             }};
-        // One key a frame, in the order in which they were pressed: what a key does is there for the next one.
-        // Letters that are typed into a field are ImGui's.
+        // One key a frame, in the order in which they were pressed: what a key does is there for
+        // the next one. Letters that are typed into a field are ImGui's.
         for (const KeyPress& press : std::exchange(GlWindow::keys(), {})) {
             constexpr int last_printable = 255; // of GLFW's numbers
             const bool typed = ImGui::GetIO().WantTextInput && press.key <= last_printable &&
@@ -277,7 +281,8 @@ private:
             ui_.keys_later.erase(ui_.keys_later.begin());
         }
         ui_.path = GlWindow::take_path();
-        if (files_.pictures_wait()) // a picture shows what hides its labels, however busy the machine is
+        if (files_.pictures_wait()) // a picture shows what hides its labels, however busy the
+                                    // machine is
             model_.pickers().picker(model_.state().document.session, View::part);
         const ViewSettings seen = model_.state().view;
         workbench(now);
@@ -291,7 +296,8 @@ private:
             on_screen_.texts = texts_on_screen(*ImGui::GetDrawData());
             on_screen_.marked = marked_item();
         }
-        files_.draw(width, height, !drawing && !images_.any_late()); // the foot tells of the frame before
+        // the foot tells of the frame before
+        files_.draw(width, height, !drawing && !images_.any_late());
         const double busy = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         times_.all.push_back(busy);
         if (solving)
@@ -303,7 +309,8 @@ private:
             glide_.before(action);
             if (options_.follow)
                 on_screen_.pushed.emplace(viewer::name(action));
-            if (auto* settings = std::get_if<SetViewSettings>(&action)) { // a panel changes what it means to change
+            // a panel changes what it means to change
+            if (auto* settings = std::get_if<SetViewSettings>(&action)) {
                 ViewSettings merged = model_.state().view;
                 take_changes(seen, settings->view, merged);
                 settings->view = merged;
@@ -330,8 +337,8 @@ private:
         return result;
     }
 
-    /// Whether views are drawn coarse because they follow the mouse. A graphics card draws them as they are; a picture to be
-    /// kept, and what a script looks at, never is coarse.
+    /// Whether views are drawn coarse because they follow the mouse. A graphics card draws them as
+    /// they are; a picture to be kept, and what a script looks at, never is coarse.
     bool moving() const
     {
         return software_ && !options_.exit && script_.ended() && !files_.pictures_wait() &&
@@ -345,8 +352,8 @@ private:
         }
     }
 
-    /// Work that is not saved would be lost with the end: that waits for the user's word. What takes the place of the part is read first,
-    /// see ViewerModel::ask_before_replacing().
+    /// Work that is not saved would be lost with the end: that waits for the user's word. What
+    /// takes the place of the part is read first, see ViewerModel::ask_before_replacing().
     bool ask_first(const Action& action)
     {
         if (!std::holds_alternative<Quit>(action))
@@ -361,8 +368,8 @@ private:
         return false;
     }
 
-    /// Whether a glide would be seen as one: with frames as long as these it would only keep the user waiting. Scripts and tests have
-    /// what they ask for at once.
+    /// Whether a glide would be seen as one: with frames as long as these it would only keep the
+    /// user waiting. Scripts and tests have what they ask for at once.
     bool may_glide() const
     {
         constexpr double slow = 60; // milliseconds: a glide of four frames
@@ -484,8 +491,8 @@ private:
     }
 
     WindowOptions options_;
-    // Of a mesh, while it is turned under software OpenGL, and how long a view stands still before it is drawn fine again: a
-    // turn of the wheel is followed by another one within 0.2 s.
+    // Of a mesh, while it is turned under software OpenGL, and how long a view stands still before
+    // it is drawn fine again: a turn of the wheel is followed by another one within 0.2 s.
     static constexpr int most_while_moving = 60000;
     static constexpr double seconds_to_stand_still = 0.3;
 
@@ -497,7 +504,8 @@ private:
     bool software_ = renderer_.in_software();
     std::array<Camera, 4> cameras_;
     ViewGlide glide_{model_};
-    double moved_at_ = -seconds_to_stand_still; ///< of ImGui's clock: a camera was another one in the frame before
+    double moved_at_ = -seconds_to_stand_still; ///< of ImGui's clock: a camera was another one in
+                                                ///< the frame before
     ViewImages images_{renderer_};
     FileTextures textures_;
     SceneCache cache_;

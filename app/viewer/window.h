@@ -19,8 +19,9 @@ struct WindowOptions {
     std::filesystem::path assets;
 };
 
-/// Shows the window until it is closed. @returns exit code: 0; 1 if an expectation of the script does not hold, or with
-/// `exit` and no script an error was said (a part that is refused, a stage without a result); 2 if the script is at fault
+/// Shows the window until it is closed. @returns exit code: 0; 1 if an expectation of the script
+/// does not hold, or with `exit` and no script an error was said (a part that is refused, a stage
+/// without a result); 2 if the script is at fault
 /// @throws Error if there is no display or no OpenGL 3.3
 int show_window(const WindowOptions& options);
 

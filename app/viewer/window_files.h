@@ -9,8 +9,8 @@
 
 namespace spia::viewer {
 
-/// The files that only a window can make, because they hold what it draws: pictures, reports, animations. They are written on
-/// threads; what becomes of them is said as messages.
+/// The files that only a window can make, because they hold what it draws: pictures, reports,
+/// animations. They are written on threads; what becomes of them is said as messages.
 class WindowFiles {
 public:
     WindowFiles(Renderer& renderer, ViewerModel& model, SceneCache& cache, Ui& ui);
@@ -19,8 +19,8 @@ public:
     /// @throws InputError if there is nothing to write
     bool take(const Action& action);
     void later(const Screenshot& wanted) { pictures_.push_back(wanted); }
-    /// At the end of a frame, when the window shows what the actions before have changed: pictures that wait, and a picture of
-    /// an animation. @param width, height  of the window, pixels
+    /// At the end of a frame, when the window shows what the actions before have changed: pictures
+    /// that wait, and a picture of an animation. @param width, height of the window, pixels
     /// @param all_drawn  no view still shows an older picture
     void draw(int width, int height, bool all_drawn);
     /// Says what has been written meanwhile. @returns whether anything has

@@ -18,8 +18,9 @@ struct OnScreen {
     std::set<std::string, std::less<>> pushed;   ///< names of the actions so far
 };
 
-/// What only the window knows: its size, the texts it shows, which actions were pushed, where the pictures of the views and the
-/// items of the steps lie, the mouse as the last frame saw it. Pixels.
+/// What only the window knows: its size, the texts it shows, which actions were pushed, where the
+/// pictures of the views and the items of the steps lie, the mouse as the last frame saw it.
+/// Pixels.
 Json window_report(const Ui& ui, std::optional<View> maximised, const OnScreen& on_screen);
 
 } // namespace spia::viewer

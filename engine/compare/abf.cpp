@@ -17,7 +17,8 @@ namespace spia {
 namespace {
 
 using std::numbers::pi;
-using Rows = Eigen::Matrix<double, 6, 3>; ///< planarity and wheel of the three corners against the three angles
+using Rows = Eigen::Matrix<double, 6, 3>; ///< planarity and wheel of the three corners against the
+                                          ///< three angles
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 double corner_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
@@ -171,8 +172,8 @@ private:
         return result;
     }
 
-    /// Second derivatives of the Lagrangian, kept positive where an extreme multiplier would turn them over: the step
-    /// is then no longer Newton's, but its fixed points are the same.
+    /// Second derivatives of the Lagrangian, kept positive where an extreme multiplier would turn
+    /// them over: the step is then no longer Newton's, but its fixed points are the same.
     Eigen::Vector3d hessian(int f) const
     {
         Eigen::Vector3d result;
@@ -201,14 +202,16 @@ FlatShapes shapes_of(const TriMesh& part, const Eigen::Matrix3Xd& angle)
     const Eigen::VectorXd area = area_vectors(part).colwise().norm();
     FlatShapes shapes(size_t(part.triangles()));
     for (int f = 0; f < part.triangles(); ++f) {
-        const Eigen::Vector3d sine = angle.col(f).array().sin(); // sides are as the sines of the opposite angles
+        // sides are as the sines of the opposite angles
+        const Eigen::Vector3d sine = angle.col(f).array().sin();
         const double scale = std::sqrt(2 * area[f] / (sine[0] * sine[1] * sine[2]));
         shapes[size_t(f)] = {scale * sine[2], std::polar(scale * sine[1], angle(0, f))};
     }
     return shapes;
 }
 
-/// Root mean square of the difference between the angles of a layout and those it was made from, radians.
+/// Root mean square of the difference between the angles of a layout and those it was made from,
+/// radians.
 double misfit(const TriMesh& part, const Eigen::Matrix2Xd& flat, const Eigen::Matrix3Xd& angle)
 {
     double sum = 0;

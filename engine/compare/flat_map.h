@@ -9,13 +9,16 @@ namespace spia {
 
 /// A part laid flat by one of the methods of this folder.
 struct FlatMap {
-    Eigen::Matrix2Xd position; ///< 2 by #V, mm, faces counter-clockwise; as large as the part in area
+    Eigen::Matrix2Xd position; ///< 2 by #V, mm, faces counter-clockwise; as large as the part in
+                               ///< area
     int iterations = 0;
-    std::vector<double> energy = {}; ///< of the method after each iteration, the start first; mm2 (empty: it has none)
+    std::vector<double> energy = {}; ///< of the method after each iteration, the start first; mm2
+                                     ///< (empty: it has none)
     std::string ended = {};          ///< why it stopped, in words
 };
 
-/// What all of these methods ask of a part: one sheet with a boundary and without handles, every face with an area.
+/// What all of these methods ask of a part: one sheet with a boundary and without handles, every
+/// face with an area.
 /// @throws InputError that says what the part is instead
 void require_sheet(const TriMesh& part);
 

@@ -8,15 +8,15 @@
 
 namespace spia {
 
-/// What the local/global methods share, which bring a flat start as near to an isometry as it gets: the triangles, and
-/// linear equations on the graph of the mesh that are analysed once.
+/// What the local/global methods share, which bring a flat start as near to an isometry as it gets:
+/// the triangles, and linear equations on the graph of the mesh that are analysed once.
 class IsometricSteps {
 public:
     /// @throws InputError as require_sheet()
     IsometricSteps(const TriMesh& part, const Progress& progress);
 
-    /// The conformal start of the forming solver (harmonic where that has flips). No projection: it starts
-    /// steep walls from slivers.
+    /// The conformal start of the forming solver (harmonic where that has flips). No projection: it
+    /// starts steep walls from slivers.
     /// @throws SolveError if there is none without flipped triangles
     Eigen::Matrix2Xd start(const Progress& progress);
 
@@ -31,8 +31,8 @@ public:
     /// @throws SolveError if K is not positive definite to rounding
     void factor(const std::vector<Eigen::Matrix2d>& metric);
 
-    /// -K^-1 times the sum over the faces of A stress g_a: the step that the metric makes of a derivative of the
-    /// energy.
+    /// -K^-1 times the sum over the faces of A stress g_a: the step that the metric makes of a
+    /// derivative of the energy.
     Eigen::Matrix2Xd step(const std::vector<Eigen::Matrix2d>& stress) const;
 
     double part_area() const { return part_area_; }
@@ -46,8 +46,8 @@ private:
     double part_area_;
 };
 
-/// Where an iteration ends: when a step lowers the energy by less than `decrease` of what it still is above its least
-/// thinkable value, or when that is below `nothing` of the part's area.
+/// Where an iteration ends: when a step lowers the energy by less than `decrease` of what it still
+/// is above its least thinkable value, or when that is below `nothing` of the part's area.
 struct IsometricOptions {
     int most_steps = 500;
     double decrease = 1e-5;

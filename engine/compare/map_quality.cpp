@@ -34,7 +34,8 @@ MapQuality map_quality(const TriMesh& part, const Eigen::Matrix2Xd& flat)
     quality.area_rms = d.area_rms;
     quality.flips = flipped_triangles(part.triangle, flat);
     quality.crossings = crossings(boundary_loops(part), flat);
-    double formed_area = 0, mapped_area = 0, stretch = 0, inverse = 0; // of A, A s1 s2, A |J|^2, A |J^-1|^2
+    // of A, A s1 s2, A |J|^2, A |J^-1|^2
+    double formed_area = 0, mapped_area = 0, stretch = 0, inverse = 0;
     const std::vector<Element> element = elements(part);
     for (int f = 0; f < part.triangles(); ++f) {
         const Element& e = element[size_t(f)];

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double least_density = 4; ///< of an isometry
 
-/// W^T W of the paper's eq. 7 and table 1: in the left singular basis of J the slope of the energy over that of
+/// W^T W of the paper's eq. 7 and table 1: in the left singular basis of J the slope of the energy
+/// over that of
 /// |s - 1|^2, (s - s^-3) / (s - 1), and the derivative of the energy, 2 (J - J^-T J^-1 J^-T).
 void reweight(const Eigen::Matrix2d& J, Eigen::Matrix2d& metric, Eigen::Matrix2d& stress)
 {
@@ -33,7 +34,8 @@ double symmetric_dirichlet_density(const Eigen::Matrix2d& J)
     const double determinant = J.determinant();
     if (!(determinant > 0))
         return std::numeric_limits<double>::infinity();
-    return J.squaredNorm() * (1 + 1 / (determinant * determinant)); // |J^-1| = |J| / det J in two dimensions
+    // |J^-1| = |J| / det J in two dimensions
+    return J.squaredNorm() * (1 + 1 / (determinant * determinant));
 }
 
 FlatMap slim(const TriMesh& part, const IsometricOptions& options, const Progress& progress,

@@ -23,7 +23,8 @@ constexpr double flat = 1e-6; // of the diagonal; chords that are off by less be
 /// Of the lifted grid at each node.
 struct Normals {
     Eigen::Matrix3Xd unit;     ///< zero where there is none
-    std::vector<char> on_part; ///< 1: all nodes that it was taken from lie on the part, none on what fills a hole
+    std::vector<char> on_part; ///< 1: all nodes that it was taken from lie on the part, none on
+                               ///< what fills a hole
 };
 
 Normals normals(const LiftResult& lift)
@@ -46,9 +47,10 @@ Normals normals(const LiftResult& lift)
     return result;
 }
 
-/// Per interval between columns (or rows) the root of the length times the turn of the normal from one to the other, the largest of all
-/// rows: lines that share it out evenly have chords that are off alike, by an eighth of its square. What fills holes is no part: beside
-/// one an interval is looked at only where holes are everywhere along it; the fill goes on smoothly there.
+/// Per interval between columns (or rows) the root of the length times the turn of the normal from
+/// one to the other, the largest of all rows: lines that share it out evenly have chords that are
+/// off alike, by an eighth of its square. What fills holes is no part: beside one an interval is
+/// looked at only where holes are everywhere along it; the fill goes on smoothly there.
 Eigen::VectorXd turns(const LiftResult& lift, bool along_u)
 {
     const QuadGrid& grid = lift.lifted;
@@ -72,7 +74,8 @@ Eigen::VectorXd turns(const LiftResult& lift, bool along_u)
         result[k] = on_part >= 0 ? on_part : beside_holes;
     }
     const double diagonal = (grid.position.rowwise().maxCoeff() - grid.position.rowwise().minCoeff()).norm();
-    if (result.maxCoeff() / 8 < flat * diagonal) // of an arc, the chord is off by an eighth of turn times length
+    if (result.maxCoeff() / 8 < flat * diagonal) // of an arc, the chord is off by an eighth of turn
+                                                 // times length
         result.setZero();
     return result.cwiseSqrt();
 }
@@ -84,7 +87,8 @@ double between(const Eigen::VectorXd& value, double at)
     return value[k] + (at - double(k)) * (value[k + 1] - value[k]);
 }
 
-/// Of a weight per interval between lines at rising places in [0, 1], the weight over even intervals.
+/// Of a weight per interval between lines at rising places in [0, 1], the weight over even
+/// intervals.
 Eigen::VectorXd over_even(const Eigen::VectorXd& weight, const Eigen::VectorXd& line)
 {
     constexpr int fine = 16;

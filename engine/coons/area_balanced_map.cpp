@@ -14,13 +14,16 @@ namespace spia {
 
 namespace {
 
-constexpr double least_height = 1e-3; // over the longest edge: a lower triangle of the blank is given this height
-constexpr double thin = 1e-5;         // of its wanted area: opened with eps > 0, like a folded triangle
+constexpr double least_height = 1e-3; // over the longest edge: a lower triangle of the blank is
+                                      // given this height
+constexpr double thin = 1e-5;         // of its wanted area: opened with eps > 0, like a folded
+                                      // triangle
 constexpr int most_steps = 200;
 constexpr int fine_enough = 10000; // triangles: fewer are divided
 
-/// The edges (b - a, c - a) that a triangle of the square is to have: those of the blank, turned so that the first one lies
-/// along x. Where the blank has a flat or turned triangle, one over the same longest edge.
+/// The edges (b - a, c - a) that a triangle of the square is to have: those of the blank, turned so
+/// that the first one lies along x. Where the blank has a flat or turned triangle, one over the
+/// same longest edge.
 Eigen::Matrix2d wanted_edges(const Eigen::Vector2d& ab, const Eigen::Vector2d& ac)
 {
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
@@ -77,7 +80,8 @@ PlanarElements elements_of(const HarmonicMap& map, const Used& used, bool slide,
     return elements;
 }
 
-/// Each triangle in four: what folds cells is the edges between large triangles that the map shears differently.
+/// Each triangle in four: what folds cells is the edges between large triangles that the map shears
+/// differently.
 HarmonicMap divided(const HarmonicMap& map)
 {
     const std::vector<EdgeUse> edges = edge_uses(map.triangle);

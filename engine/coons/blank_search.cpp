@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Whether one layer can explain all these faces at one point: they meet in a vertex, and it is inside at most one.
+/// Whether one layer can explain all these faces at one point: they meet in a vertex, and it is
+/// inside at most one.
 bool one_layer(const std::vector<MeshPoint>& found, const Eigen::Matrix3Xi& triangle)
 {
     constexpr double inside = 1e-6; // barycentric
@@ -42,7 +43,8 @@ std::vector<std::array<int, 3>> faces_across(const Eigen::Matrix3Xi& triangle)
     return across;
 }
 
-/// Separating axes: the normal of the segment and the normals of the triangle's edges, the segment's box by the way.
+/// Separating axes: the normal of the segment and the normals of the triangle's edges, the
+/// segment's box by the way.
 bool touches(const Vector2d& p, const Vector2d& q, const std::array<Vector2d, 3>& corner, double tolerance)
 {
     const auto apart = [&](const Vector2d& axis) {
@@ -67,7 +69,8 @@ bool touches(const Vector2d& p, const Vector2d& q, const std::array<Vector2d, 3>
 BlankSearch::BlankSearch(const FilledMesh& filled)
     : filled_(filled), locator_(filled.plane, filled.mesh.triangle), across_(faces_across(filled.mesh.triangle))
 {
-    constexpr double flat = 1e-12; // doubled area over squared longest edge that rounding can give a sliver
+    constexpr double flat = 1e-12; // doubled area over squared longest edge that rounding can give
+                                   // a sliver
     const Eigen::Matrix3Xi& triangle = filled.mesh.triangle;
     for (int f = 0; f < triangle.cols() && !overlaps_; ++f) {
         const Vector2d a = filled.plane.col(triangle(0, f)), b = filled.plane.col(triangle(1, f)),
@@ -75,7 +78,8 @@ BlankSearch::BlankSearch(const FilledMesh& filled)
         const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
         overlaps_ = cross(b - a, c - a) < -flat * longest;
     }
-    // Where one layer lies on another, the border of the common region is made of pieces of the outline.
+    // Where one layer lies on another, the border of the common region is made of pieces of the
+    // outline.
     const size_t n = filled.outline.size();
     for (size_t i = 0; i < n && !overlaps_; ++i) {
         const Vector2d a = filled.plane.col(filled.outline[i]), b = filled.plane.col(filled.outline[(i + 1) % n]);
@@ -113,7 +117,8 @@ MeshPoint BlankSearch::place_next_to(const Vector2d& point, const std::vector<Me
 
 bool BlankSearch::line_stays_inside(const MeshPoint& from, const MeshPoint& to) const
 {
-    // Through the faces that the line touches: the two ends hang together if they do so within these.
+    // Through the faces that the line touches: the two ends hang together if they do so within
+    // these.
     const Vector2d p = position(from), q = position(to);
     std::vector<int> reached = {from.face};
     for (size_t i = 0; i < reached.size(); ++i) {

@@ -7,8 +7,8 @@
 
 namespace spia {
 
-/// Finds places on a filled blank that may lie on top of itself, like the flattened wall of a nearly closed
-/// tube.
+/// Finds places on a filled blank that may lie on top of itself, like the flattened wall of a
+/// nearly closed tube.
 class BlankSearch {
 public:
     /// @param filled must outlive the search
@@ -17,11 +17,12 @@ public:
     /// True if the outline lies on other faces of the blank somewhere, or faces are turned over.
     bool overlaps_itself() const { return overlaps_; }
 
-    /// The place of a point of the plane. Face -1 if no face covers it, or faces of different layers do.
+    /// The place of a point of the plane. Face -1 if no face covers it, or faces of different
+    /// layers do.
     MeshPoint unique_place(const Eigen::Vector2d& point) const;
 
-    /// The place of a point on the layer of one of its neighbours: the straight line from there does not leave the
-    /// blank. Face -1 if there is none.
+    /// The place of a point on the layer of one of its neighbours: the straight line from there
+    /// does not leave the blank. Face -1 if there is none.
     MeshPoint place_next_to(const Eigen::Vector2d& point, const std::vector<MeshPoint>& neighbours) const;
 
     /// The nearest place, on any layer.

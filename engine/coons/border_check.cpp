@@ -33,7 +33,8 @@ std::vector<Eigen::Vector2d> border_polygon(const QuadGrid& grid)
     return border;
 }
 
-/// How often a closed polygon turns around, counter-clockwise positive. Only 1 can bound unfolded cells.
+/// How often a closed polygon turns around, counter-clockwise positive. Only 1 can bound unfolded
+/// cells.
 int turns(const std::vector<Eigen::Vector2d>& polygon)
 {
     double turning = 0;

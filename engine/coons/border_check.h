@@ -5,18 +5,20 @@
 
 namespace spia {
 
-/// The inner angle of the outline at corner k, in degrees, between the first border nodes to both sides: 0 to 360.
+/// The inner angle of the outline at corner k, in degrees, between the first border nodes to both
+/// sides: 0 to 360.
 double corner_angle_deg(const QuadGrid& grid, int k);
 
 /// The first corner at which no grid with these border nodes can have a cell, or -1.
 int impossible_corner(const QuadGrid& grid);
 
-/// Whether the cells are small enough to follow the outline: their border turns around once, has about the area of
-/// the blank and hardly crosses itself.
+/// Whether the cells are small enough to follow the outline: their border turns around once, has
+/// about the area of the blank and hardly crosses itself.
 /// @param overlaps the blank lies on itself, so that its border may cross itself
 bool follows_outline(const GridResult& grid, bool overlaps);
 
-/// Whether cells with straight edges are possible between these border nodes: neither of the two above is in the way.
+/// Whether cells with straight edges are possible between these border nodes: neither of the two
+/// above is in the way.
 bool border_is_possible(const GridResult& grid, bool overlaps);
 
 /// The vertex of the outline with the largest inner angle in the blank, and that angle in degrees.

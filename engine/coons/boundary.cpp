@@ -15,14 +15,17 @@ namespace spia {
 
 namespace {
 
-constexpr std::array<double, 6> turning_lengths = {0.0015, 0.003, 0.006, 0.012, 0.024, 0.04}; // of the perimeter
+// of the perimeter
+constexpr std::array<double, 6> turning_lengths = {0.0015, 0.003, 0.006, 0.012, 0.024, 0.04};
 constexpr int most_candidates = 96;  // all their quadruples are compared: 3.3 million
 constexpr int even_candidates = 32;  // of these, spread evenly for smooth outlines
 constexpr double weight_balance = 4; // against a score of at most 1 per corner
 constexpr double weight_square = 0.5;
-constexpr double weight_straight = 4; // a cell cannot have a corner where the outline is straight or turns inwards
+constexpr double weight_straight = 4; // a cell cannot have a corner where the outline is straight
+                                      // or turns inwards
 constexpr int finalists = 256;        // of these quadruples, looked at more closely
-constexpr double straight = 0.5;      // of the turning of a circle as long as the outline, over the same length
+constexpr double straight = 0.5;      // of the turning of a circle as long as the outline, over the
+                                      // same length
 
 std::vector<int> outline_of(const Blank& blank, const TriMesh& part)
 {
@@ -30,8 +33,8 @@ std::vector<int> outline_of(const Blank& blank, const TriMesh& part)
     return loops[size_t(outer_loop(loops, blank.position))];
 }
 
-/// 1 where the outline turns by a right angle, less for blunt and for needle-like corners, below 0 where it
-/// cannot be one.
+/// 1 where the outline turns by a right angle, less for blunt and for needle-like corners, below 0
+/// where it cannot be one.
 double corner_score(const Outline& outline, int i)
 {
     const double right_angle = std::numbers::pi / 2;
@@ -46,8 +49,8 @@ double corner_score(const Outline& outline, int i)
     return turns_out ? score : score - weight_straight;
 }
 
-/// What four corners at the given lengths along the outline are worth, apart from their angles. Squares, so
-/// that moving one corner at a time leads to the best place.
+/// What four corners at the given lengths along the outline are worth, apart from their angles.
+/// Squares, so that moving one corner at a time leads to the best place.
 double side_score(const std::array<double, 4>& length, double perimeter)
 {
     std::array<double, 4> side;
@@ -69,7 +72,8 @@ struct Quadruple {
     double worth;
 };
 
-/// Whether the outline turns outwards at each corner between the first border nodes of a grid of usual density.
+/// Whether the outline turns outwards at each corner between the first border nodes of a grid of
+/// usual density.
 bool cells_fit(const Outline& outline, const std::array<int, 4>& corner)
 {
     constexpr double cells = 40, least_turn = 0.01; // radians
@@ -84,7 +88,8 @@ bool cells_fit(const Outline& outline, const std::array<int, 4>& corner)
     return true;
 }
 
-/// Evenly spread vertices, then the sharpest ones, no two of these within half a percent of the perimeter.
+/// Evenly spread vertices, then the sharpest ones, no two of these within half a percent of the
+/// perimeter.
 std::vector<int> candidates(const Outline& outline, const std::vector<double>& score)
 {
     std::vector<int> chosen;
@@ -172,8 +177,8 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part)
         std::find_if(best.begin(), best.end(), [&](const Quadruple& q) { return cells_fit(outline, q.corner); });
     Quadruple chosen = fit != best.end() ? *fit : best.front();
 
-    // The candidates are sparse: let each corner walk along the outline while that pays. Each step raises the
-    // worth, so it ends; the order of the corners is kept.
+    // The candidates are sparse: let each corner walk along the outline while that pays. Each step
+    // raises the worth, so it ends; the order of the corners is kept.
     for (bool moved = true; moved;) {
         moved = false;
         for (size_t k = 0; k < 4; ++k)
@@ -215,7 +220,8 @@ BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std:
                                          number(corners[k])));
         place[k] = int(found - loop.begin());
     }
-    const auto steps = [&](size_t k) { return (place[k] - place[0] + n) % n; }; // counter-clockwise from the first
+    // counter-clockwise from the first
+    const auto steps = [&](size_t k) { return (place[k] - place[0] + n) % n; };
     if (steps(1) > steps(2) && steps(2) > steps(3))
         std::swap(place[1], place[3]); // clockwise
     else if (!(steps(1) < steps(2) && steps(2) < steps(3))) {

@@ -9,7 +9,8 @@ namespace spia {
 
 namespace {
 
-constexpr double least_sine = 1e-9; // below it a corner is right but of no use: any rounding turns it
+constexpr double least_sine = 1e-9; // below it a corner is right but of no use: any rounding turns
+                                    // it
 
 double sine(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {

@@ -38,7 +38,8 @@ Eigen::VectorXd graded_lines(const Eigen::VectorXd& weight, int intervals, doubl
     const int samples_each = std::max(1, int(std::ceil(fine * intervals / double(weight.size()))));
     share = std::min(share, 1 - 1e-6); // no place without lines
     const Eigen::ArrayXd wanted = wanted_spacing(weight, share, samples_each);
-    // Neighbours differ by the slope of the spacing over it. Where that is too steep lines are added, and all are moved apart for it.
+    // Neighbours differ by the slope of the spacing over it. Where that is too steep lines are
+    // added, and all are moved apart for it.
     const double slope = std::log(growth) * intervals;
     const auto spacing = [&](double scale) { return with_slope(scale * wanted, slope); };
     double low = 1, high = 1;

@@ -26,10 +26,12 @@ namespace spia {
 
 namespace {
 
-constexpr int least_cells = 4;          // of an automatic count
-constexpr int most_refinements = 1;     // of an automatic count: doubled
-constexpr int sweeps_between_looks = 5; // smoothing can fold what it has unfolded: stop as soon as it is good
-constexpr std::array<double, 3> slides = {0, 1.5, 6}; // how far border nodes may slide, in cells: tried in turn
+constexpr int least_cells = 4;                        // of an automatic count
+constexpr int most_refinements = 1;                   // of an automatic count: doubled
+constexpr int sweeps_between_looks = 5;               // smoothing can fold what it has unfolded:
+                                                      // stop as soon as it is good
+constexpr std::array<double, 3> slides = {0, 1.5, 6}; // how far border nodes may slide, in cells:
+                                                      // tried in turn
 
 /// Bilinearly blended between opposite sides (eq. 25).
 void blend_opposite_sides(QuadGrid& grid)
@@ -57,8 +59,8 @@ void smooth_interior(QuadGrid& grid, int sweeps)
                             grid.position.col(grid.node(i, j - 1)) + grid.position.col(grid.node(i, j + 1)));
 }
 
-/// Cells as square as the mean length of the grid lines allows, `options.cells` along the longer ones. (The
-/// sides alone would give an ellipse with its corners at the two ends far too few rows.)
+/// Cells as square as the mean length of the grid lines allows, `options.cells` along the longer
+/// ones. (The sides alone would give an ellipse with its corners at the two ends far too few rows.)
 void choose_counts(const GridContext& context, const GridOptions& options, int& columns, int& rows)
 {
     QuadGrid trial =
@@ -110,7 +112,8 @@ GridResult untangled_grid(const SquareMap& map, const GridContext& context, cons
     return grid;
 }
 
-/// Border nodes that divide the sides evenly, else that slide as little as they have to for cells to follow the outline.
+/// Border nodes that divide the sides evenly, else that slide as little as they have to for cells
+/// to follow the outline.
 GridResult harmonic_grid(GridContext& context, int columns, int rows, const Progress& progress)
 {
     if (!context.harmonic)
@@ -127,7 +130,8 @@ GridResult harmonic_grid(GridContext& context, int columns, int rows, const Prog
     return grid;
 }
 
-/// The same from a map that leaves lobes and windings their area, first with border nodes that divide the sides evenly.
+/// The same from a map that leaves lobes and windings their area, first with border nodes that
+/// divide the sides evenly.
 GridResult area_balanced_grid(const GridContext& context, int columns, int rows, GridResult best,
                               const Progress& progress)
 {
@@ -150,7 +154,8 @@ GridResult area_balanced_grid(const GridContext& context, int columns, int rows,
     return best;
 }
 
-/// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a part with lobes.
+/// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a
+/// part with lobes.
 double outline_over_square(const GridContext& context)
 {
     const std::vector<int>& outline = context.filled->outline;

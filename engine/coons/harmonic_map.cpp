@@ -14,8 +14,8 @@ namespace spia {
 
 namespace {
 
-// Cotangents of 84 and of 0.6 degrees. The bound below makes the map one-to-one, the one above keeps it well
-// conditioned.
+// Cotangents of 84 and of 0.6 degrees. The bound below makes the map one-to-one, the one above
+// keeps it well conditioned.
 constexpr double smallest_weight = 0.1;
 constexpr double largest_weight = 100;
 
@@ -35,7 +35,8 @@ struct CutCorner {
     Eigen::Vector3d place;
 };
 
-/// Cuts a triangle whose edges k = 0, 1, 2 have a new vertex middle[k] (or -1) into two, three or four.
+/// Cuts a triangle whose edges k = 0, 1, 2 have a new vertex middle[k] (or -1) into two, three or
+/// four.
 void cut(const Eigen::Vector3i& face, const std::array<int, 3>& middle, int parent,
          std::vector<Eigen::Vector3i>& triangles, HarmonicMap& map)
 {
@@ -118,7 +119,8 @@ void place_sides(const BlankBoundary& boundary, const Eigen::Matrix2Xd& plane, E
     }
 }
 
-/// The cotangent at corner k of a triangle. A triangle that is turned over or flat gives the one of its mirror image.
+/// The cotangent at corner k of a triangle. A triangle that is turned over or flat gives the one of
+/// its mirror image.
 double cotangent(const Eigen::Matrix2Xd& plane, const Eigen::Vector3i& t, int k)
 {
     const Eigen::Vector2d a = plane.col(t[(k + 1) % 3]) - plane.col(t[k]),
@@ -182,7 +184,8 @@ HarmonicMap harmonic_map(const FilledMesh& filled, const BlankBoundary& boundary
     matrix.setFromTriplets(entries.begin(), entries.end());
     progress.checkpoint(0.2, "harmonic map: solution");
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
-    // Positive definite, since the weights are and every vertex hangs on the sides; only rounding can spoil that.
+    // Positive definite, since the weights are and every vertex hangs on the sides; only rounding
+    // can spoil that.
     if (factor.info() != Eigen::Success)
         throw SolveError("the harmonic map of the blank could not be factored; remesh the part with better triangles");
     const Eigen::MatrixX2d solution = factor.solve(right);

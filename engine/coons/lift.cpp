@@ -23,7 +23,8 @@ LiftResult carry_over(const QuadGrid& planar, std::vector<MeshPoint> place, cons
                                          n, planar.position(0, Eigen::Index(n)), planar.position(1, Eigen::Index(n))));
         Eigen::Vector3d position = Eigen::Vector3d::Zero();
         for (int k = 0; k < 3; ++k)
-            if (here.barycentric[k] != 0) // a border node is exactly on its edge, whatever the third vertex
+            if (here.barycentric[k] != 0) // a border node is exactly on its edge, whatever the
+                                          // third vertex
                 position += here.barycentric[k] * filled.mesh.position.col(filled.mesh.triangle(k, here.face));
         result.lifted.position.col(Eigen::Index(n)) = position;
         result.on_fill[n] = filled.is_fill(here.face);

@@ -26,7 +26,8 @@ struct SquareMap {
     }
 };
 
-/// Everything the ways to a grid share: the blank as a search structure, and the harmonic map once it is needed.
+/// Everything the ways to a grid share: the blank as a search structure, and the harmonic map once
+/// it is needed.
 struct GridContext {
     std::shared_ptr<const FilledMesh> filled;
     BlankBoundary boundary;
@@ -47,7 +48,8 @@ BorderParameters border_of_map(const HarmonicMap& map, const BlankBoundary& boun
 /// A grid whose inner nodes are at the origin and nowhere on the blank yet.
 GridResult empty_grid(const GridContext& context, int columns, int rows, const BorderParameters& border);
 
-/// A map onto the unit square, inverted where the lines cross. Each node keeps the triangle it was found in.
+/// A map onto the unit square, inverted where the lines cross. Each node keeps the triangle it was
+/// found in.
 GridResult grid_of_map(const SquareMap& map, const GridContext& context, const MapLines& lines,
                        const BorderParameters& border);
 

@@ -44,7 +44,8 @@ constexpr double least_spacing = 0.2; // cells, along the outline
 constexpr double impossible = 1e9;
 constexpr double largest_bend = 1e4; // tan^2 of nearly a half turn
 
-/// One node of the closed row of border nodes: its possible places. A corner has but the middle one.
+/// One node of the closed row of border nodes: its possible places. A corner has but the middle
+/// one.
 struct SlidingNode {
     int side, index; ///< of the node on the side
     bool corner;
@@ -56,7 +57,8 @@ struct SlidingNode {
     }
 };
 
-/// The cost of leaving a node by the direction `out` when it was reached by `in`, both of unit length.
+/// The cost of leaving a node by the direction `out` when it was reached by `in`, both of unit
+/// length.
 double bend(const Eigen::Vector2d& in, const Eigen::Vector2d& out, bool corner)
 {
     const double cosine = in.dot(out), sine = in.x() * out.y() - in.y() * out.x();
@@ -100,12 +102,14 @@ BorderParameters slid_border(const FilledMesh& filled, const BlankBoundary& boun
     const int n = int(nodes.size());
     nodes.push_back(nodes[0]); // around the loop and back to the first corner
 
-    // State: the places of two neighbours. Each best path remembers its second node, so that the loop can be closed.
+    // State: the places of two neighbours. Each best path remembers its second node, so that the
+    // loop can be closed.
     struct Best {
         double cost = impossible;
         int from = -1, second = -1;
     };
-    using Table = std::array<std::array<Best, places>, places>; // [place of node k][place of node k + 1]
+    // [place of node k][place of node k + 1]
+    using Table = std::array<std::array<Best, places>, places>;
     std::vector<Table> best(static_cast<size_t>(n));
     const auto usable = [&](int k, int at) {
         const SlidingNode& node = nodes[size_t(k)];

@@ -5,7 +5,8 @@
 
 namespace spia {
 
-/// A structured quad mesh of columns x rows cells; node (i, j) is column i + j * (columns + 1) of position.
+/// A structured quad mesh of columns x rows cells; node (i, j) is column i + j * (columns + 1) of
+/// position.
 struct QuadGrid {
     int columns = 0;           ///< cells along u
     int rows = 0;              ///< cells along v
@@ -15,8 +16,8 @@ struct QuadGrid {
     int node(int i, int j) const { return i + j * (columns + 1); }
 };
 
-/// The outer boundary of the blank, cut at four corner vertices into the sides v = 0, u = 1, v = 1, u = 0, each a row of
-/// vertex indices in counter-clockwise order, both corners included.
+/// The outer boundary of the blank, cut at four corner vertices into the sides v = 0, u = 1, v = 1,
+/// u = 0, each a row of vertex indices in counter-clockwise order, both corners included.
 struct BlankBoundary {
     std::array<int, 4> corner;
     std::array<std::vector<int>, 4> side;

@@ -14,12 +14,15 @@ namespace spia {
 
 namespace {
 
-constexpr std::array<double, 2> area_weights = {0.05, 0.3}; // of the map, tried in turn: the less, the less it shears
+constexpr std::array<double, 2> area_weights = {0.05, 0.3}; // of the map, tried in turn: the less,
+                                                            // the less it shears
 constexpr double share_to_long = 0.8;                       // of the lines, to where cells are long
 constexpr double growth = 3;                                // of neighbouring spacings
 constexpr int mean_of = 4;                                  // cells on either side
-constexpr double too_coarse = 0.15;    // of the cells fold before any is moved: a finer grid is tried at once,
-constexpr int quick_cells = 160 * 160; // if there is one, unless they are so few that trying costs little
+constexpr double too_coarse = 0.15;                         // of the cells fold before any is
+                                                            // moved: a finer grid is tried at once,
+constexpr int quick_cells = 160 * 160;                      // if there is one, unless they are so
+                                                            // few that trying costs little
 
 std::optional<SquareMap> slid_map(const GridContext& context, double area_weight, const Progress& progress)
 {
@@ -33,8 +36,8 @@ std::optional<SquareMap> slid_map(const GridContext& context, double area_weight
     return SquareMap(std::move(*map), GridRoute::spiral);
 }
 
-/// Per column (or row) the root of its longest edge across: lines spaced by it make long cells shorter, but not all alike, as
-/// that would starve the others.
+/// Per column (or row) the root of its longest edge across: lines spaced by it make long cells
+/// shorter, but not all alike, as that would starve the others.
 Eigen::VectorXd longest_edges(const QuadGrid& grid, bool along_u)
 {
     Eigen::VectorXd longest = Eigen::VectorXd::Zero(along_u ? grid.columns : grid.rows);

@@ -19,9 +19,11 @@ using Eigen::Vector4d;
 constexpr double least_eps = 1e-9;      // of an ideal element's area
 constexpr double small_decrease = 1e-3; // of the energy in one step: shape is good enough
 constexpr double first_eps = 0.01;      // at least
-constexpr double enough_decrease = 0.1; // of the energy in one step: worth another one with the same eps
+constexpr double enough_decrease = 0.1; // of the energy in one step: worth another one with the
+                                        // same eps
 constexpr int most_steps_per_eps = 5;
-constexpr double slower = 0.5; // chi of the worst element falls to this part of itself when eps is lowered
+constexpr double slower = 0.5; // chi of the worst element falls to this part of itself when eps is
+                               // lowered
 constexpr double armijo = 1e-4;
 constexpr int most_halvings = 40;
 
@@ -58,8 +60,8 @@ public:
                 if (!moved || left > 1 - small_decrease)
                     return smallest;
             } else if (++at_this_eps == most_steps_per_eps || left > 1 - enough_decrease) {
-                // Not to zero at once: the energy has to follow, or its steep wall stands in the way of the worst
-                // element.
+                // Not to zero at once: the energy has to follow, or its steep wall stands in the
+                // way of the worst element.
                 if (energy_.eps <= least_eps)
                     return smallest; // folded and standing still
                 const double target = energy_.chi(smallest) * slower;
@@ -146,7 +148,8 @@ private:
                     matrix_.add_to_diagonal(2 * pull.node + i, stiffness);
                 }
         }
-        // Clamping may leave a direction without stiffness; a little of the identity bounds the step there.
+        // Clamping may leave a direction without stiffness; a little of the identity bounds the
+        // step there.
         const double little = 1e-6 * elements_.weight.mean() / options_.element_area;
         for (Eigen::Index v = 0; v < position_.cols(); ++v)
             for (int i = 0; i < 2; ++i)

@@ -13,12 +13,15 @@ namespace spia {
 namespace {
 
 constexpr int most_steps = 150;
-constexpr double area_weight = 0.3;  // of keeping the areas against keeping the shapes
-constexpr double folded_mean = 1e-4; // determinant over squared edges below which the mean is taken of more cells
+constexpr double area_weight = 0.3;             // of keeping the areas against keeping the shapes
+constexpr double folded_mean = 1e-4;            // determinant over squared edges below which the
+                                                // mean is taken of more cells
 constexpr int least_reach = 4, most_reach = 64; // cells around folded ones that move along
 constexpr int most_passes = 14;
-constexpr double good_pass = 0.6;    // of the cells still fold: another one with the same reach, else with twice that
-constexpr double least_slant = 0.05; // of the wanted cells likewise: one that is nearly flat is given some height
+constexpr double good_pass = 0.6;    // of the cells still fold: another one with the same reach,
+                                     // else with twice that
+constexpr double least_slant = 0.05; // of the wanted cells likewise: one that is nearly flat is
+                                     // given some height
 
 /// The edges of a cell along u and along v.
 struct CellEdges {
@@ -57,7 +60,8 @@ CellEdges wanted_edges(const QuadGrid& grid, int i, int j, int around)
     return edges;
 }
 
-/// Per node 1 where it may move: inside of the grid, and at a cell not more than `reach` cells from one that folds.
+/// Per node 1 where it may move: inside of the grid, and at a cell not more than `reach` cells from
+/// one that folds.
 std::vector<char> movable(const QuadGrid& grid, const std::vector<int>& folded, int reach)
 {
     std::vector<char> result(size_t(grid.nodes()), 0);

@@ -24,7 +24,8 @@ double least_sine_around(const QuadGrid& grid, int node, const Eigen::Vector2d& 
         return lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : 0;
     };
     double least = 1;
-    for (int k = 0; k < 8; k += 2) { // the cell of the node, its neighbours k and k + 2, and k + 1 across
+    for (int k = 0; k < 8; k += 2) { // the cell of the node, its neighbours k and k + 2, and k + 1
+                                     // across
         least = std::min(least, sine(at(k) - point, at(k + 2) - point));
         least = std::min(least, sine(at(k + 1) - at(k), point - at(k)));
         least = std::min(least, sine(point - at(k + 2), at(k + 1) - at(k + 2)));
@@ -32,7 +33,8 @@ double least_sine_around(const QuadGrid& grid, int node, const Eigen::Vector2d& 
     return least;
 }
 
-/// The place on the blank where a node outside makes the best cells while its neighbours stay; face -1 if none does.
+/// The place on the blank where a node outside makes the best cells while its neighbours stay; face
+/// -1 if none does.
 MeshPoint best_place_for(const BlankSearch& blank, const GridResult& grid, int node)
 {
     constexpr int samples = 24; // per direction, over the box of the cells around
@@ -62,8 +64,8 @@ MeshPoint best_place_for(const BlankSearch& blank, const GridResult& grid, int n
     return best;
 }
 
-/// Where to draw a node that has left the blank: a little way in from its nearest edge, or to a neighbour that is
-/// inside where other layers of the blank are in the way.
+/// Where to draw a node that has left the blank: a little way in from its nearest edge, or to a
+/// neighbour that is inside where other layers of the blank are in the way.
 Eigen::Vector2d way_back(const BlankSearch& blank, const GridResult& grid, int node)
 {
     const Eigen::Vector2d here = grid.planar.position.col(node).head<2>();

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 namespace spia {
 namespace {
 
-thread_local WritingJob* job = nullptr; // a dozen writers and the libraries in them would have to hand it on
+thread_local WritingJob* job = nullptr; // a dozen writers and the libraries in them would have to
+                                        // hand it on
 
 std::string advice(int error)
 {
@@ -106,7 +107,8 @@ fs::path target_of(const fs::path& path)
     const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
     if (target.filename().empty() || fs::is_directory(target, ignored))
         fail(path, EISDIR);
-    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) // a rename would replace the device
+    // a rename would replace the device
+    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
         throw ExchangeError(
             fmt::format("cannot write {}: it is not a regular file; choose another name", path.string()));
     return target;

@@ -3,9 +3,10 @@
 
 namespace spia {
 
-/// The colour map of every picture and file: viridis, perceptually uniform and readable with colour blindness and in
-/// grey. Piecewise linear in sRGB through nine anchors. [S. van der Walt and N. Smith, matplotlib 2015, dedicated to
-/// the public domain (CC0)] @param t clamped to 0..1, dark blue to yellow @return sRGB, 0..1
+/// The colour map of every picture and file: viridis, perceptually uniform and readable with colour
+/// blindness and in grey. Piecewise linear in sRGB through nine anchors. [S. van der Walt and N.
+/// Smith, matplotlib 2015, dedicated to the public domain (CC0)] @param t clamped to 0..1, dark
+/// blue to yellow @return sRGB, 0..1
 Eigen::Vector3d viridis(double t);
 
 /// sRGB (what a screen takes) to linear RGB (what glTF wants), 0..1 each. [IEC 61966-2-1]

@@ -13,12 +13,13 @@
 
 namespace spia {
 
-/// One function on a thread of its own. Its owner asks now and then how far it is, and never waits but in the destructor.
-/// All members are for the owner's thread.
+/// One function on a thread of its own. Its owner asks now and then how far it is, and never waits
+/// but in the destructor. All members are for the owner's thread.
 template <class Result> class Job {
 public:
     /// @param work  runs at once; it shares nothing mutable with the owner
-    /// @param wake  called on the job's thread when there is news (another step or percent, or the end): many checkpoints are only there to
+    /// @param wake  called on the job's thread when there is news (another step or percent, or the
+    /// end): many checkpoints are only there to
     ///              be cancelled at; it must not throw
     explicit Job(
         std::function<Result(const Progress&)> work, std::function<void()> wake = [] {})

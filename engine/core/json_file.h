@@ -22,7 +22,8 @@ Json read_json(const std::filesystem::path& file, bool comments = false);
 /// @throws ExchangeError if a text in it is no UTF-8
 std::string lines_of(const Json& object, const std::string& what);
 
-/// Where a value stands in a file; only made into words if something is wrong there. Its parents must outlive it.
+/// Where a value stands in a file; only made into words if something is wrong there. Its parents
+/// must outlive it.
 class Place {
 public:
     explicit Place(std::string_view file) : name_(file) {}
@@ -30,7 +31,8 @@ public:
     Place entry(size_t i) const { return Place(this, {}, long(i)); }
 
     std::string text() const;                            ///< e.g. "door.spia: /regions/3/name"
-    [[noreturn]] void fail(std::string_view what) const; ///< @throws InputError "door.spia: /regions/3/name what"
+    [[noreturn]] void fail(std::string_view what) const; ///< @throws InputError "door.spia:
+                                                         ///< /regions/3/name what"
 
 private:
     Place(const Place* parent, std::string_view name, long entry) : parent_(parent), name_(name), entry_(entry) {}

@@ -5,7 +5,8 @@
 
 namespace spia {
 
-/// Carries the newest of many things from one thread to another; what nobody fetched in time is lost.
+/// Carries the newest of many things from one thread to another; what nobody fetched in time is
+/// lost.
 template <class T> class Mailbox {
 public:
     void post(T thing)

@@ -8,8 +8,9 @@
 
 namespace spia {
 
-/// Runs body(i) for 0 <= i < count on the available threads. Each call writes only its own results, and sums
-/// are taken afterwards in a fixed order: the same input gives the same bits on any number of threads.
+/// Runs body(i) for 0 <= i < count on the available threads. Each call writes only its own results,
+/// and sums are taken afterwards in a fixed order: the same input gives the same bits on any number
+/// of threads.
 template <class Body> void parallel_for(int count, const Body& body)
 {
     constexpr int grain = 512; // below this, starting a task costs more than the loop
@@ -31,8 +32,9 @@ void for_each_in_parts(int count, const Progress& progress, std::string_view ste
     }
 }
 
-/// Computes compute(i, slot) on the available threads and hands each slot to take(i, slot) in the order of i: a sum over elements
-/// without an array of all their contributions, and with the same bits on any number of threads.
+/// Computes compute(i, slot) on the available threads and hands each slot to take(i, slot) in the
+/// order of i: a sum over elements without an array of all their contributions, and with the same
+/// bits on any number of threads.
 template <class Slot, class Compute, class Take>
 void parallel_in_order(int count, const Compute& compute, const Take& take)
 {

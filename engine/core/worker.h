@@ -45,8 +45,8 @@ private:
     std::shared_ptr<State> state_;
 };
 
-/// One thread that makes things in the order in which they are asked for. What nobody waits for any more when its turn
-/// comes is left out.
+/// One thread that makes things in the order in which they are asked for. What nobody waits for any
+/// more when its turn comes is left out.
 class Worker {
 public:
     /// @param wake  called on the worker's thread when something is ready; it must not throw

@@ -10,8 +10,9 @@
 
 namespace spia {
 
-/// What a scene file or a picture shows: the whole chain side by side. Everything is borrowed for the call;
-/// what is null is left out, except that part, blank and fields belong together and are always there.
+/// What a scene file or a picture shows: the whole chain side by side. Everything is borrowed for
+/// the call; what is null is left out, except that part, blank and fields belong together and are
+/// always there.
 struct ExportScene {
     std::string name;                    ///< of the part
     const TriMesh* part = nullptr;       ///< mm
@@ -31,8 +32,8 @@ void require_complete(const ExportScene& scene);
 /// Two triangles per cell, counter-clockwise as the cells are; vertices are the grid's nodes.
 TriMesh triangles_of(const QuadGrid& grid);
 
-/// Pairs of neighbours along u and then along v in a structured net of count_u by count_v points, u fastest. 2 by
-/// #lines
+/// Pairs of neighbours along u and then along v in a structured net of count_u by count_v points, u
+/// fastest. 2 by #lines
 Eigen::Matrix2Xi net_lines(int count_u, int count_v);
 
 } // namespace spia

@@ -16,7 +16,8 @@
 namespace spia {
 namespace {
 
-/// A polygon's from its vector area: of one that is not plane, that of its shadow along its mean normal.
+/// A polygon's from its vector area: of one that is not plane, that of its shadow along its mean
+/// normal.
 double area_of(const PolygonSoup& soup, int p)
 {
     const auto corner = soup.polygon(p);

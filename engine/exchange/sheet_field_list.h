@@ -16,7 +16,8 @@ struct NamedField {
     const Eigen::VectorXd* value;
 };
 
-/// thickness, thinning, strain_major, strain_minor, strain_equivalent: the fields every format offers, in this order.
+/// thickness, thinning, strain_major, strain_minor, strain_equivalent: the fields every format
+/// offers, in this order.
 std::vector<NamedField> forming_fields(const SheetFields& fields);
 
 /// stress_major, stress_minor, stress_equivalent.
@@ -25,10 +26,12 @@ std::vector<NamedField> stress_fields(const SheetFields& fields);
 /// outer_strain_major, ..., inner_strain_equivalent, one value per face.
 std::vector<NamedField> skin_fields(const SkinStrains& skins);
 
-/// @throws InputError unless the blank has one finite point for each finite vertex of the part, and faces name vertices
+/// @throws InputError unless the blank has one finite point for each finite vertex of the part, and
+/// faces name vertices
 void require_blank_of(const TriMesh& part, const Blank& blank);
 
-/// @throws InputError unless every field has count finite values; @param per what they belong to, e.g. "vertex"
+/// @throws InputError unless every field has count finite values; @param per what they belong to,
+/// e.g. "vertex"
 void require_fields(const SheetFields& fields, int count, const char* per);
 
 /// @throws InputError if there are zones, but not one per face of the part

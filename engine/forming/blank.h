@@ -8,7 +8,8 @@ struct Blank {
     Eigen::Matrix2Xd position; ///< 2 by #V, mm, in the plane of the blank
 };
 
-/// What forming did to the sheet; one entry per face, or per node (area-weighted mean of the faces around it).
+/// What forming did to the sheet; one entry per face, or per node (area-weighted mean of the faces
+/// around it).
 struct SheetFields {
     Eigen::VectorXd thickness;         ///< mm, after forming
     Eigen::VectorXd thinning;          ///< 1 - thickness / initial thickness
@@ -19,7 +20,8 @@ struct SheetFields {
     Eigen::VectorXd stress_minor;      ///< MPa
     Eigen::VectorXd stress_equivalent; ///< MPa
     Eigen::Matrix3Xd direction_major;  ///< unit vector on the part; its sign has no meaning
-    Eigen::VectorXi necking;           ///< 1 beyond the strain up to which the hardening curve is trusted, else 0
+    Eigen::VectorXi necking;           ///< 1 beyond the strain up to which the hardening curve is
+                                       ///< trusted, else 0
 };
 
 } // namespace spia

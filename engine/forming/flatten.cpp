@@ -78,7 +78,8 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     require_valid(original, options);
     if (start)
         require_start(original, *start);
-    // Far from the origin (a part in car coordinates) the digits of a blank would not do for equilibrium to 1e-9.
+    // Far from the origin (a part in car coordinates) the digits of a blank would not do for
+    // equilibrium to 1e-9.
     TriMesh part = original;
     const Eigen::Vector3d centre = (part.position.rowwise().minCoeff() + part.position.rowwise().maxCoeff()) / 2;
     part.position.colwise() -= centre;

@@ -17,12 +17,13 @@ namespace spia {
 
 struct FlattenOptions {
     Material material;
-    double thickness = 1; ///< mm, of the flat sheet
-    std::optional<Eigen::Vector3d>
-        direction;              ///< stamping direction, either way along it; chosen automatically if not given
-    ProcessConditions process;  ///< what the tools do; none: the sheet is free
-    StressCurve::Options curve; ///< where the hardening curve is trusted and how it goes on
-    bool skins = false;         ///< also the strains of both skins, with bending
+    double thickness = 1;                     ///< mm, of the flat sheet
+    std::optional<Eigen::Vector3d> direction; ///< stamping direction, either way along it; chosen
+                                              ///< automatically if not given
+    ProcessConditions process;                ///< what the tools do; none: the sheet is free
+    StressCurve::Options curve;               ///< where the hardening curve is trusted and how it
+                                              ///< goes on
+    bool skins = false;                       ///< also the strains of both skins, with bending
     int most_energy_steps = 200;
     int most_newton_steps = 60;
     double tolerance = 1e-8; ///< on |R| relative to the nodal forces at the yield stress
@@ -34,7 +35,8 @@ enum class SolvedSystem {
     strict,    ///< virtual work with the material as given
     continued, ///< virtual work, the hardening curve continued from the uniform strain on
     relaxed,   ///< likewise, relaxed at some vertices: see VirtualWork::relax()
-    energy     ///< none: the least energy with the thickness held, or virtual work relaxed everywhere
+    energy     ///< none: the least energy with the thickness held, or virtual work relaxed
+               ///< everywhere
 };
 std::string_view name(SolvedSystem system);
 
@@ -42,17 +44,23 @@ std::string_view name(SolvedSystem system);
 struct SolveReport {
     bool converged = false; ///< `system` holds to the tolerance, and is not SolvedSystem::energy
     SolvedSystem system = SolvedSystem::energy;
-    double trusted_strain = 0; ///< the hardening curve is continued beyond it: the option's, or the uniform strain
-    int relaxed_vertices = 0;  ///< whose equations were relaxed, see VirtualWork::relax()
-    std::string reason;        ///< why the iteration ended, in words
-    StartMethod start = StartMethod::conformal; ///< of a blank that steps gave, which has none, nothing
-    std::vector<NewtonStep> energy;             ///< steps of the energy stage (all its passes in a row)
+    double trusted_strain = 0;                  ///< the hardening curve is continued beyond it: the
+                                                ///< option's, or the uniform strain
+    int relaxed_vertices = 0;                   ///< whose equations were relaxed, see
+                                                ///< VirtualWork::relax()
+    std::string reason;                         ///< why the iteration ended, in words
+    StartMethod start = StartMethod::conformal; ///< of a blank that steps gave, which has none,
+                                                ///< nothing
+    std::vector<NewtonStep> energy;             ///< steps of the energy stage (all its passes in a
+                                                ///< row)
     std::vector<NewtonStep> newton;             ///< steps of the virtual-work stage
-    double process_share =
-        1;               ///< of the forces of the tools that are in the blank: below 1 the sheet does not bear them
-    double residual = 0; ///< |R| relative to the nodal forces at the yield stress
+    double process_share = 1;                   ///< of the forces of the tools that are in the
+                                                ///< blank: below 1 the sheet does not bear them
+    double residual = 0;                        ///< |R| relative to the nodal forces at the yield
+                                                ///< stress
     Eigen::Vector3d resultant =
-        Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; zero where pins hold it
+        Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; zero where pins hold
+                                 ///< it
     double seconds = 0;
 
     /// Whether it is the solution of all that was asked for.
@@ -66,7 +74,8 @@ struct FlattenResult {
     std::optional<SkinStrains> skins; ///< where asked for
     StampingDirection stamping;
     SolveReport report;
-    int necking_triangles = 0; ///< faces beyond the trusted strain: extrapolated, where the part tears
+    int necking_triangles = 0; ///< faces beyond the trusted strain: extrapolated, where the part
+                               ///< tears
     int flipped_triangles = 0; ///< always 0; counted anew from the result, by an exact test
     Overlap overlap;           ///< where the blank lies on itself
     double volume_error = 0;   ///< largest |h A - h0 A0| / (h0 A0) over the faces
@@ -76,10 +85,11 @@ struct FlattenResult {
 /// @param part      mm; one component, at least one boundary loop, no handles (cut_open() sees to it), no face without area
 /// @param progress  one checkpoint per iteration; cancelling takes effect at the next one
 /// @throws InputError  if the part or an option is not as described; names the first offending face
-/// @throws SolveError  if there is no flip-free state at all, or none that can be told in the part's coordinates
-/// If the virtual-work system does not converge, the hardening curve is continued from the uniform strain on and equations
-/// that the mesh cannot bear are relaxed; if that fails too, the blank of the energy stage (thickness held) is given. The
-/// report says so. The result does not depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
+/// @throws SolveError if there is no flip-free state at all, or none that can be told in the part's
+/// coordinates If the virtual-work system does not converge, the hardening curve is continued from
+/// the uniform strain on and equations that the mesh cannot bear are relaxed; if that fails too,
+/// the blank of the energy stage (thickness held) is given. The report says so. The result does not
+/// depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
 FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress = {});
 
 } // namespace spia

@@ -18,11 +18,12 @@ namespace {
 /// Ways to divide a blank, in turn.
 struct Ways {
     std::vector<LayoutOptions> layout;
-    size_t dividing_all = 0; ///< from here on every face is divided: only where a fold is in the way
+    size_t dividing_all = 0; ///< from here on every face is divided: only where a fold is in the
+                             ///< way
 };
 
-/// As few patches as there can be, then more of them with better corners; each along the edges of the part, where it has some, and
-/// without; along flatter edges where these are not enough.
+/// As few patches as there can be, then more of them with better corners; each along the edges of
+/// the part, where it has some, and without; along flatter edges where these are not enough.
 Ways ways_to_divide(const TriMesh& part, const LayoutOptions& layout)
 {
     constexpr double flat_deg = 20; // flatter ones are bends that a smooth surface follows
@@ -51,7 +52,8 @@ Ways ways_to_divide(const TriMesh& part, const LayoutOptions& layout)
     add_both(true, 0.5);
     ways.dividing_all = ways.layout.size();
     add(plain, false, true, 1, 1);
-    add(plain, false, true, 1, 0.5); // other vertices on the border, where a face has a corner without room for cells
+    add(plain, false, true, 1, 0.5); // other vertices on the border, where a face has a corner
+                                     // without room for cells
     add(plain, false, true, 1.5, 0.5);
     add(plain, true, true, 1, 1);
     return ways;
@@ -101,7 +103,8 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
         // Patches along edges are compared with those without, whose fit may cost no more.
         const bool compare = worth.all() && best->layout.edges > 0 && k == 1;
         if ((worth.all() && !compare) || (worth.suited && k >= ways.dividing_all))
-            break; // what lacks then is control points, or an edge is in the way whatever the patches
+            break; // what lacks then is control points, or an edge is in the way whatever the
+                   // patches
         try {
             const Progress here = progress.part(double(k) / double(count), double(k + 1) / double(count));
             Layout divided = make_layout(part, blank, ways.layout[k], here.part(0, 0.1));

@@ -28,7 +28,8 @@ bool is_near(const Outline& outline, const Places& places, double length, double
     });
 }
 
-/// The sharpest place of every stretch of a loop that turns by more than `corner` over a share of it to both sides.
+/// The sharpest place of every stretch of a loop that turns by more than `corner` over a share of
+/// it to both sides.
 Places corners(const Outline& outline, double corner, double share)
 {
     const int n = outline.size();
@@ -110,7 +111,8 @@ Places places_of(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, bo
     if (only_forced)
         return places;
     Places found;
-    for (const double share : corner_reach) { // not right beside a forced one, nor one that was found already
+    for (const double share : corner_reach) { // not right beside a forced one, nor one that was
+                                              // found already
         const Places before = found;
         for (const int i : corners(outline, corner_turn, share))
             if (!is_near(outline, before, outline.length_at(i), 1.5 * share * outline.perimeter()) &&
@@ -158,7 +160,8 @@ Places places_of(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, bo
     return more;
 }
 
-/// An even number of vertices gives an even number of triangles: the longest arc of the outline gets one more.
+/// An even number of vertices gives an even number of triangles: the longest arc of the outline
+/// gets one more.
 void make_even(std::vector<LoopPlaces>& loops, size_t outer, const Eigen::Matrix2Xd& plane)
 {
     size_t count = 0;

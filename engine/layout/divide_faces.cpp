@@ -72,7 +72,8 @@ bool sees(const Eigen::Vector2d& from, const std::vector<Eigen::Vector2d>& point
     return true;
 }
 
-/// The sine of the worst corner of the faces around a place that is joined to the middles of the sides by straight lines.
+/// The sine of the worst corner of the faces around a place that is joined to the middles of the
+/// sides by straight lines.
 double worst_corner(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>& middles,
                     const std::vector<Eigen::Vector2d>& ahead, const std::vector<Eigen::Vector2d>& behind)
 {
@@ -88,8 +89,8 @@ double worst_corner(const Eigen::Vector2d& place, const std::vector<Eigen::Vecto
     return worst;
 }
 
-/// A place from which all middles are seen, with good corners: the mean of corners and middles, else found step by step from the best
-/// of it and places around it. Nothing if there is none.
+/// A place from which all middles are seen, with good corners: the mean of corners and middles,
+/// else found step by step from the best of it and places around it. Nothing if there is none.
 std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& corners,
                                          const std::vector<Eigen::Vector2d>& middles,
                                          const std::vector<Eigen::Vector2d>& ahead,
@@ -110,7 +111,8 @@ std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& cor
             shortest = std::min(shortest, (middle - place).norm());
             longest = std::max(longest, (middle - place).norm());
         }
-        return std::min(sine, 5 * shortest / longest); // patches of 1 to 10 as bad as corners of 30 degrees
+        return std::min(sine, 5 * shortest / longest); // patches of 1 to 10 as bad as corners of 30
+                                                       // degrees
     };
     Eigen::Vector2d best = mean;
     double best_quality = quality(mean);
@@ -154,7 +156,8 @@ std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& cor
         where.x(), where.y()));
 }
 
-/// From the middles of the sides to one place: straight lines where they can be, else bent around what is in their way.
+/// From the middles of the sides to one place: straight lines where they can be, else bent around
+/// what is in their way.
 Spokes divided(const std::vector<Eigen::Vector2d>& corners, const std::vector<Eigen::Vector2d>& middles,
                const std::vector<Eigen::Vector2d>& ahead, const std::vector<Eigen::Vector2d>& behind,
                const std::vector<Eigen::Vector2d>& polygon, double good_sine)
@@ -177,7 +180,8 @@ Spokes divided(const std::vector<Eigen::Vector2d>& corners, const std::vector<Ei
     throw_too_narrow(points);
 }
 
-/// The curves that have to be halved: all sides of faces that have not four, and what is across from a side that is halved.
+/// The curves that have to be halved: all sides of faces that have not four, and what is across
+/// from a side that is halved.
 std::vector<char> halved_curves(const PlaneGraph& graph, const std::vector<Face>& faces, bool all)
 {
     std::vector<char> halved(graph.curve.size(), char(all));
@@ -236,7 +240,8 @@ int add_line(PlaneGraph& graph, int from, int to, Eigen::Matrix2Xd points)
 void divide_from_middle(const PlaneGraph& old, const Face& face, const Halves& halves, double good_sine,
                         PlaneGraph& graph, std::vector<Face>& result)
 {
-    std::vector<Eigen::Vector2d> corners, middles, ahead, behind; // these: how the sides leave their middles
+    // these: how the sides leave their middles
+    std::vector<Eigen::Vector2d> corners, middles, ahead, behind;
     Face border;
     for (const CurveUse use : face) {
         border.insert(border.end(), {halves.first(use), halves.second(use)});
@@ -304,8 +309,8 @@ void divide_faces(PlaneGraph& graph, std::vector<Face>& faces, bool all)
     graph = {old.vertex, old.border, {}, {}};
     const std::vector<char> halved = halved_curves(old, faces, all);
     const Halves halves(old, halved, graph);
-    // Where all are divided the mean will do if it sees the middles: patches of even size are worth more there (measured on a
-    // bracket with 11 holes, which has no fold so).
+    // Where all are divided the mean will do if it sees the middles: patches of even size are worth
+    // more there (measured on a bracket with 11 holes, which has no fold so).
     const double good_sine = all ? 0 : 0.3;
     std::vector<Face> result;
     for (const Face& face : faces) {

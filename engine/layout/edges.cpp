@@ -12,7 +12,8 @@ namespace spia {
 namespace {
 
 using std::numbers::pi;
-constexpr double shortest = 0.02; ///< over the diagonal: loose ends below it are no edges but noise of the mesh
+constexpr double shortest = 0.02; ///< over the diagonal: loose ends below it are no edges but noise
+                                  ///< of the mesh
 constexpr size_t most_lines =
     200; ///< more of them: only sharper ones count, or it is a rough surface, not a part with edges
 constexpr double rough = pi / 4; ///< the angle from which on too many are too many

@@ -70,7 +70,8 @@ public:
             for (Eigen::Index i = 0; i < plane.cols(); ++i)
                 result.col(i) = lift_(lift_.locator.nearest(plane.col(i)));
         }
-        for (size_t i = 0; i < t.size(); ++i) { // curves that meet there have the same point to the last bit
+        for (size_t i = 0; i < t.size(); ++i) { // curves that meet there have the same point to the
+                                                // last bit
             if (t[i] == 0)
                 result.col(Eigen::Index(i)) = vertex_.col(curve.vertex[0]);
             if (t[i] == 1)
@@ -129,7 +130,8 @@ public:
         const auto& borders = borders_[size_t(chords_.strip[size_t(c)])];
         return chords_.against[size_t(c)] ? mirrored(borders) : borders;
     }
-    /// As the parameter of a patch runs: sides v = 0 and u = 1 along it, v = 1 and u = 0 against it.
+    /// As the parameter of a patch runs: sides v = 0 and u = 1 along it, v = 1 and u = 0 against
+    /// it.
     std::vector<double> of_side(const LayoutPatch& patch, size_t side) const
     {
         const auto borders = of_curve(patch[side].curve);
@@ -227,7 +229,8 @@ void refine_for(int p, Strips& strips, const Strips& before, const Layout& layou
     }
 }
 
-/// The spans halved that want to be, as far as the control points go: those of the farthest patches first.
+/// The spans halved that want to be, as far as the control points go: those of the farthest patches
+/// first.
 /// @returns false if none may be
 bool refine(Strips& strips, const Layout& layout, const Fitted& fitted, const PatchesJudgement& judgement,
             const PatchesFitOptions& options)
@@ -254,7 +257,8 @@ bool refine(Strips& strips, const Layout& layout, const Fitted& fitted, const Pa
     return strips.borders() != before.borders();
 }
 
-/// The spans that the curves need for themselves: within the tolerance, or as near as the control points allow.
+/// The spans that the curves need for themselves: within the tolerance, or as near as the control
+/// points allow.
 Strips first_strips(const Layout& layout, const Chords& chords, const Sources& sources,
                     const PatchesFitOptions& options)
 {

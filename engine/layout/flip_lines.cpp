@@ -39,7 +39,8 @@ Eigen::Matrix2Xd points_of(const PlaneGraph& graph, CurveUse use)
     return use.reversed ? p.rowwise().reverse().eval() : p;
 }
 
-/// Whether a straight line from the apex of a face on a curve runs within it at first, and meets neither of its other sides.
+/// Whether a straight line from the apex of a face on a curve runs within it at first, and meets
+/// neither of its other sides.
 bool clear_of_sides(const PlaneGraph& graph, const Face& face, int curve, const Eigen::Vector2d& from,
                     const Eigen::Vector2d& to)
 {
@@ -83,7 +84,8 @@ void flip_lines(PlaneGraph& graph, int first_line, const Progress& progress)
                 faces[size_t(two[0])].size() != 3 || faces[size_t(two[1])].size() != 3)
                 continue;
             LayoutCurve& line = graph.curve[size_t(c)];
-            // The first face in the list has the line forwards or backwards: a and b so that it lies to the left of a to b.
+            // The first face in the list has the line forwards or backwards: a and b so that it
+            // lies to the left of a to b.
             const bool reversed = std::find(faces[size_t(two[0])].begin(), faces[size_t(two[0])].end(),
                                             CurveUse{c, true}) != faces[size_t(two[0])].end();
             const int a = line.vertex[reversed ? 1 : 0], b = line.vertex[reversed ? 0 : 1],

@@ -19,19 +19,24 @@ namespace {
 using Point = Eigen::Vector2d;
 
 using std::numbers::pi;
-constexpr double bulge = 0.02;               ///< over its chord: an arc that is so far from straight gets a layer
-constexpr double most_turn = 100 * pi / 180; ///< of an arc
-constexpr double sharp = 40 * pi / 180;      ///< a place at which an arc is divided first
-constexpr double share_of_gap = 0.35;        ///< of the way to the border across: leaves room for the layer over there
-constexpr double share_of_arc = 0.8;         ///< of the length of the arcs beside it: deepest
-constexpr double least_clearance = 0.3;      ///< of the layer's depth, left between the arc and the layer's inner line
-constexpr double least_beside = 0.6;         ///< of the depth: distance of the inner line from all of the border
+constexpr double bulge = 0.02;                 ///< over its chord: an arc that is so far from
+                                               ///< straight gets a layer
+constexpr double most_turn = 100 * pi / 180;   ///< of an arc
+constexpr double sharp = 40 * pi / 180;        ///< a place at which an arc is divided first
+constexpr double share_of_gap = 0.35;          ///< of the way to the border across: leaves room for
+                                               ///< the layer over there
+constexpr double share_of_arc = 0.8;           ///< of the length of the arcs beside it: deepest
+constexpr double least_clearance = 0.3;        ///< of the layer's depth, left between the arc and
+                                               ///< the layer's inner line
+constexpr double least_beside = 0.6;           ///< of the depth: distance of the inner line from
+                                               ///< all of the border
 constexpr double least_corner = 25 * pi / 180; ///< of a layer's patches, and its complement
 constexpr double thinner = 0.7;
 constexpr int most_rounds = 200;
 constexpr double longest_arc = 4; ///< over its distance from the rest of the border
 constexpr double least_piece =
-    1. / 40; ///< of the blank's size, of cuts and edges: they may run as close to others as they like
+    1. / 40; ///< of the blank's size, of cuts and edges: they may run as close to others as they
+             ///< like
 
 /// How far a ray goes until it meets a segment, over the length of `way`; infinite if it does not.
 double reach_of(const Point& from, const Point& way, const Point& a, const Point& b)
@@ -56,11 +61,13 @@ public:
         for (const LayoutCurve& curve : graph_.curve)
             for (Eigen::Index i = 0; i + 1 < curve.plane.cols(); ++i)
                 border_.push_back({curve.plane.col(i), curve.plane.col(i + 1)});
-        std::vector<char> on_edge(graph_.vertex.size(), 0); // of the part: patches end there, and so do layers
+        std::vector<char> on_edge(graph_.vertex.size(), 0); // of the part: patches end there, and
+                                                            // so do layers
         for (const LayoutCurve& curve : graph_.curve)
             if (!curve.on_border())
                 on_edge[size_t(curve.vertex[0])] = on_edge[size_t(curve.vertex[1])] = 1;
-        for (const LayoutCurve& curve : graph_.curve) // as a whole: straight pieces of a bent arc meet at flat corners
+        for (const LayoutCurve& curve : graph_.curve) // as a whole: straight pieces of a bent arc
+                                                      // meet at flat corners
             layered_.push_back(curve.on_border() && !on_edge[size_t(curve.vertex[0])] &&
                                !on_edge[size_t(curve.vertex[1])] && is_bent(curve));
         divide_arcs();
@@ -144,7 +151,8 @@ private:
         return least;
     }
 
-    /// One round towards layers that cross nothing and have room for cells. @returns false if there was nothing to do
+    /// One round towards layers that cross nothing and have room for cells. @returns false if there
+    /// was nothing to do
     bool adjust()
     {
         std::vector<char> too_deep(graph_.vertex.size(), 0);
@@ -264,7 +272,8 @@ private:
         return most - least;
     }
 
-    /// Where an arc becomes two: at its sharpest point, or at the one next to the middle of its length if none is sharp.
+    /// Where an arc becomes two: at its sharpest point, or at the one next to the middle of its
+    /// length if none is sharp.
     static Eigen::Index place_to_split(const LayoutCurve& arc)
     {
         Eigen::Index sharpest = 1;
@@ -285,8 +294,8 @@ private:
         layered_.push_back(layered_[size_t(c)]);
     }
 
-    /// Divides arcs that wind, and those that are long beside their distance from the rest of the border, so that patches grow step
-    /// by step; cuts and edges likewise.
+    /// Divides arcs that wind, and those that are long beside their distance from the rest of the
+    /// border, so that patches grow step by step; cuts and edges likewise.
     void divide_arcs()
     {
         double low = border_[0].a.sum(), high = low; // the blank's size, roughly
@@ -318,7 +327,8 @@ private:
                 for (Eigen::Index k = 0; k + 1 < other.plane.cols(); ++k)
                     least = std::min(least,
                                      distance_to_segment(arc.plane.col(i), other.plane.col(k), other.plane.col(k + 1)));
-            for (Eigen::Index i = 0; arc.kept && i + 1 < arc.plane.cols(); ++i) // it may be long between its points
+            // it may be long between its points
+            for (Eigen::Index i = 0; arc.kept && i + 1 < arc.plane.cols(); ++i)
                 for (Eigen::Index k = 0; k < other.plane.cols(); ++k)
                     least = std::min(least,
                                      distance_to_segment(other.plane.col(k), arc.plane.col(i), arc.plane.col(i + 1)));
@@ -345,7 +355,8 @@ private:
                 continue;
             const int in = in_[size_t(v)], out = out_[size_t(v)], own = number[size_t(v)];
             BorderTurn turn{graph_.vertex[size_t(v)],
-                            graph_.vertex[size_t(v)]}; // at an end the border of the rest comes down to v
+                            graph_.vertex[size_t(v)]}; // at an end the border of the rest comes
+                                                       // down to v
             if (layered_[size_t(in)])
                 turn.before = graph_.vertex[size_t(number[size_t(arcs[size_t(in)].vertex[0])])];
             else

@@ -29,7 +29,8 @@ std::vector<int> cells_of_strips(const Layout& layout, const Chords& chords, int
     return result;
 }
 
-/// The polygon with straight sides bent outwards by next to nothing: rows of points on a line have no triangles.
+/// The polygon with straight sides bent outwards by next to nothing: rows of points on a line have
+/// no triangles.
 PatchPolygon bulged(PatchPolygon polygon)
 {
     constexpr double height = 1e-7; // over the length of the side

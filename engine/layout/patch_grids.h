@@ -8,7 +8,8 @@
 namespace spia {
 
 struct PatchGridOptions {
-    int cells = 16; ///< along a curve as long as a square patch of mean area is wide; 8 to 64 on every curve
+    int cells = 16; ///< along a curve as long as a square patch of mean area is wide; 8 to 64 on
+                    ///< every curve
 };
 
 /// The grid of one patch, on a mesh of its own of the region between its four sides.
@@ -19,7 +20,8 @@ struct PatchGrid {
     std::shared_ptr<const BlankChart> chart; ///< of it: (u, v) to the blank
 };
 
-/// One per patch of the layout; patches beside each other have as many cells along their common side.
+/// One per patch of the layout; patches beside each other have as many cells along their common
+/// side.
 /// @throws InputError if a patch has no grid without folds; the message says where it is
 std::vector<std::unique_ptr<const PatchGrid>> patch_grids(const Layout& layout, const Chords& chords,
                                                           const PatchGridOptions& options = {},

@@ -25,8 +25,8 @@ public:
     PatchesJudge(const TriMesh& part, const Blank& blank, const Layout& layout, double tolerance,
                  const Progress& progress = {});
 
-    /// A place of the part is compared with the patch in whose region of the blank it lies; where that is farther away than the
-    /// tolerance, with every patch near it.
+    /// A place of the part is compared with the patch in whose region of the blank it lies; where
+    /// that is farther away than the tolerance, with every patch near it.
     PatchesJudgement judge(const std::vector<NurbsSurface>& patches, const Progress& progress = {}) const;
 
 private:
@@ -36,7 +36,8 @@ private:
     MeshSamples samples_;              ///< of the part
     Eigen::Matrix2Xd plane_;           ///< of the same on the blank
     std::vector<int> patch_;           ///< per sample
-    std::vector<Eigen::Vector4d> box_; ///< per patch of the layout: low x, low y, high x, high y, a little larger
+    std::vector<Eigen::Vector4d> box_; ///< per patch of the layout: low x, low y, high x, high y, a
+                                       ///< little larger
 };
 
 } // namespace spia

@@ -13,8 +13,9 @@ double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, c
 bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                    const Eigen::Vector2d& d);
 
-/// Whether the direction from v to q runs into the inside of a corner whose border comes from `before` and goes on to `after` with the
-/// inside on its left; along the border itself is not inside. Exact.
+/// Whether the direction from v to q runs into the inside of a corner whose border comes from
+/// `before` and goes on to `after` with the inside on its left; along the border itself is not
+/// inside. Exact.
 bool leads_inside(const Eigen::Vector2d& before, const Eigen::Vector2d& v, const Eigen::Vector2d& after,
                   const Eigen::Vector2d& q);
 

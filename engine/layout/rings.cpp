@@ -10,7 +10,8 @@ namespace spia {
 
 namespace {
 
-constexpr double small_hole = 2; ///< times its radius is the distance to the rest of the border, or more
+constexpr double small_hole = 2; ///< times its radius is the distance to the rest of the border, or
+                                 ///< more
 constexpr double share = 0.4;    ///< of the distance that a ring takes
 constexpr double widest = 3;     ///< radii of the hole
 
@@ -68,7 +69,8 @@ void add_rings(PlaneGraph& graph)
             continue;
         const Eigen::Vector2d middle = (points[h].rowwise().minCoeff() + points[h].rowwise().maxCoeff()) / 2;
         const double radius = (points[h].colwise() - middle).colwise().norm().maxCoeff();
-        double away = std::numeric_limits<double>::infinity(); // of the rest of the border from the middle
+        // of the rest of the border from the middle
+        double away = std::numeric_limits<double>::infinity();
         for (size_t other = 0; other < rows.size(); ++other)
             for (Eigen::Index i = 0, j = points[other].cols() - 1; other != h && i < points[other].cols(); j = i++)
                 away = std::min(away, distance_to_segment(middle, points[other].col(j), points[other].col(i)));

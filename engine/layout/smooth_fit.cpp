@@ -12,9 +12,11 @@ namespace {
 
 constexpr int most_rounds = 12;           // of trying; then all stay as they were
 constexpr int rounds_before_widening = 3; // then those beside spoilt patches are kept as well
-constexpr double no_worse = 1e-3;         // radians, by which the angle of a join may grow while others get smooth
+constexpr double no_worse = 1e-3;         // radians, by which the angle of a join may grow while
+                                          // others get smooth
 
-/// Per patch 1 where it is worse than it may be: too far from the part, folded, or with a greater angle at one of its sides.
+/// Per patch 1 where it is worse than it may be: too far from the part, folded, or with a greater
+/// angle at one of its sides.
 std::vector<char> spoilt(const PatchesJudgement& before, const Certificate& proved, const PatchesJudgement& after,
                          const Certificate& certificate, double tolerance)
 {
@@ -68,7 +70,8 @@ PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJ
             fit.patches = std::move(smooth.patches);
             return then;
         }
-        // A place of the part beside a patch that is kept already is nearest to a neighbour that moved.
+        // A place of the part beside a patch that is kept already is nearest to a neighbour that
+        // moved.
         const int before = count(options.kept);
         if (round >= rounds_before_widening)
             bad = with_neighbours(bad, fit.patches);

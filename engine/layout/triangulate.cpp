@@ -12,7 +12,8 @@ namespace spia {
 
 namespace {
 
-/// A line that leaves the border at less would run along it but for rounding, and leave no room for cells.
+/// A line that leaves the border at less would run along it but for rounding, and leave no room for
+/// cells.
 constexpr double least_angle = 4 * std::numbers::pi / 180;
 constexpr double rounding = 1e-6; ///< radians, the same where no line is to be missing
 
@@ -47,7 +48,8 @@ bool blocks(const Wall& wall, const PlaneGraph& graph, const Line& line)
     const Eigen::Vector2d &p = graph.vertex[size_t(line.from)], &q = graph.vertex[size_t(line.to)];
     const bool at_from = wall.from == line.from || wall.from == line.to,
                at_to = wall.to == line.from || wall.to == line.to;
-    if (at_from && at_to) // a straight arc between the same two, or an arc of a loop with two vertices
+    if (at_from && at_to) // a straight arc between the same two, or an arc of a loop with two
+                          // vertices
         return true;
     if (!at_from && !at_to)
         return segments_meet(p, q, wall.a, wall.b);

@@ -10,8 +10,9 @@
 namespace spia {
 namespace {
 
-constexpr double least_n = 0.05, largest_n = 0.21, largest_thickness = 3; // mm; of the sheets behind the formula
-constexpr double right_slope = 0.6, right_end = 0.2;                      // engineering
+// mm; of the sheets behind the formula
+constexpr double least_n = 0.05, largest_n = 0.21, largest_thickness = 3;
+constexpr double right_slope = 0.6, right_end = 0.2; // engineering
 
 /// The lowest point lies at plane strain, and the curve rises from there to both sides.
 void note_odd_shape(FormingLimitCurve& curve)

@@ -126,14 +126,15 @@ std::vector<WorstSpot> worst_spots(const TriMesh& part, const SheetFields& face,
     return spots;
 }
 
-/// Densities and moduli of metals for sheet lie far apart: steel 7850 kg/m3 and 205 GPa, nickel 8900 and 205, copper
-/// 8900 and 120, titanium 4500 and 110, aluminium 2700 and 70.
+/// Densities and moduli of metals for sheet lie far apart: steel 7850 kg/m3 and 205 GPa, nickel
+/// 8900 and 205, copper 8900 and 120, titanium 4500 and 110, aluminium 2700 and 70.
 bool is_steel(const Material& material)
 {
     return material.young_MPa > 170000 && material.density_kg_m3 > 7600 && material.density_kg_m3 < 8100;
 }
 
-/// By either: a fitted grade may have been left at the density of steel, but its modulus was measured.
+/// By either: a fitted grade may have been left at the density of steel, but its modulus was
+/// measured.
 bool is_aluminium(const Material& material)
 {
     return (material.density_kg_m3 > 2300 && material.density_kg_m3 < 3200) ||
@@ -168,7 +169,8 @@ std::optional<FormingLimitCurve> curve_for(const Material& material, double thic
             fmt::format("Keeler-Brazier is made for low-carbon steel; for {} its curve is a guess", material.name));
     constexpr double most = 0.99;
     const double uniform = uniform_strain(material.hardening, most);
-    constexpr double of_ferrite = 0.3; // IF steels, the softest ferritic ones, strain uniformly up to 0.25
+    constexpr double of_ferrite = 0.3; // IF steels, the softest ferritic ones, strain uniformly up
+                                       // to 0.25
     if (is_steel(material) && uniform > of_ferrite)
         notes.push_back(fmt::format(
             "{} strains uniformly up to {:.2f}, as austenitic and TRIP steels do; Keeler-Brazier is made for low-carbon"
@@ -252,7 +254,8 @@ PieceLimits limits_of(const TailoredPiece& piece, int faces, const Material& bas
     return limits;
 }
 
-/// Counts the faces beyond the ends of their curves; says so of measured ones where they are many: prolonged lines are not measured.
+/// Counts the faces beyond the ends of their curves; says so of measured ones where they are many:
+/// prolonged lines are not measured.
 void count_beyond(const SheetFields& face, const std::vector<Judge>& judges, const std::vector<int>& judge_of,
                   LimitsResult& out)
 {

@@ -14,7 +14,8 @@
 
 namespace spia {
 
-/// What forming does to a place of the sheet. The first of these that holds, from crack down, is its zone:
+/// What forming does to a place of the sheet. The first of these that holds, from crack down, is
+/// its zone:
 ///   crack               the major strain is above the forming limit curve
 ///   risk                it is below the curve by less than half of the margin, in points of engineering major strain
 ///   marginal            it is below the curve by less than the margin
@@ -49,7 +50,8 @@ std::string_view name(Zone zone); ///< as in files: "excessive_thinning"
 
 /// Where the zones begin. Strains and shares as fractions.
 struct ZoneOptions {
-    double margin = 0.10;         ///< points of engineering major strain below the curve; half of it is at risk
+    double margin = 0.10;         ///< points of engineering major strain below the curve; half of
+                                  ///< it is at risk
     double max_thinning = 0.25;   ///< of the initial thickness
     double max_thickening = 0.10; ///< of the initial thickness
     double low_strain = 0.02;     ///< engineering
@@ -70,10 +72,10 @@ struct ZoneShare {
 /// The worst face of a connected region of one zone. Low strain and safe have none.
 struct WorstSpot {
     Zone zone = Zone::safe;
-    int face = 0;             ///< of the part
-    Eigen::Vector3d position; ///< mm, middle of the face on the part
-    double
-        value; ///< crack, risk, marginal: distance to the curve; else thinning or thickening, whatever the zone is about
+    int face = 0;                      ///< of the part
+    Eigen::Vector3d position;          ///< mm, middle of the face on the part
+    double value;                      ///< crack, risk, marginal: distance to the curve; else
+                                       ///< thinning or thickening, whatever the zone is about
     double strain_major, strain_minor; ///< logarithmic
     double thinning;
     int region_faces;       ///< in the region
@@ -81,10 +83,10 @@ struct WorstSpot {
 };
 
 struct Zones {
-    std::vector<Zone> zone; ///< per face
-    Eigen::VectorXd
-        distance; ///< per face, engineering major strain that is left up to the curve at the same minor strain,
-                  ///< below 0 beyond it; no number where the sheet has no curve; empty if there is none at all
+    std::vector<Zone> zone;   ///< per face
+    Eigen::VectorXd distance; ///< per face, engineering major strain that is left up to the curve
+                              ///< at the same minor strain, below 0 beyond it; no number where the
+                              ///< sheet has no curve; empty if there is none at all
     std::array<ZoneShare, zone_count> share; ///< by the number of the zone
     std::vector<WorstSpot> spots;            ///< worst zone first, in it worst value first
 };
@@ -101,15 +103,18 @@ std::vector<Zone> zones_at_vertices(const TriMesh& part, const std::vector<Zone>
 
 struct LimitsOptions {
     enum class Source {
-        automatic, ///< the grade's own points (Material::limit), else Keeler-Brazier for steel, none for other metals
+        automatic,      ///< the grade's own points (Material::limit), else Keeler-Brazier for
+                        ///< steel, none for other metals
         keeler_brazier, ///< whatever the metal; a note says where it is not made for it
         points,         ///< `curve`, for all faces
         none
     };
     Source source = Source::automatic;
     FormingLimitCurve curve = {};      ///< for Source::points
-    std::optional<double> n = {};      ///< of the base sheet, for Keeler-Brazier; else that of its grade or its law
-    std::optional<double> margin = {}; ///< of all faces; else 0.10, and 0.08 where the sheet is aluminium
+    std::optional<double> n = {};      ///< of the base sheet, for Keeler-Brazier; else that of its
+                                       ///< grade or its law
+    std::optional<double> margin = {}; ///< of all faces; else 0.10, and 0.08 where the sheet is
+                                       ///< aluminium
     ZoneOptions zones = {};            ///< its margin is overwritten
 
     friend bool operator==(const LimitsOptions&, const LimitsOptions&) = default;
@@ -131,16 +136,20 @@ struct LimitsResult {
     ZoneOptions settings;                   ///< as used; the margin is that of the base sheet
     std::vector<PieceLimits> pieces;        ///< of a tailored blank, in the order of its pieces
     Zones zones;
-    int beyond_curve = 0;           ///< faces whose minor strain lies outside the points of their curve
+    int beyond_curve = 0;           ///< faces whose minor strain lies outside the points of their
+                                    ///< curve
     std::vector<std::string> notes; ///< what to mind, in words
 };
 
-/// Judges a formed sheet: the curve by the options, and the zones by it. The n of Keeler-Brazier is that of the
-/// options, else of the grade (Material::limit), else the uniform strain of the hardening law, which for Hollomon's law is its n [Considere 1885].
+/// Judges a formed sheet: the curve by the options, and the zones by it. The n of Keeler-Brazier is
+/// that of the options, else of the grade (Material::limit), else the uniform strain of the
+/// hardening law, which for Hollomon's law is its n [Considere 1885].
 /// @param face  one entry per face; @param material, thickness  of the base sheet; mm, flat
-/// @param pieces  of a tailored blank: each face has the curve and the margin of its own grade and gauge; where two
+/// @param pieces  of a tailored blank: each face has the curve and the margin of its own grade and
+/// gauge; where two
 ///                overlap the later one counts
-/// @throws InputError  if there is no curve for a sheet, a piece has faces that are none, or an option is not as described
+/// @throws InputError if there is no curve for a sheet, a piece has faces that are none, or an
+/// option is not as described
 LimitsResult forming_limits(const TriMesh& part, const SheetFields& face, const Material& material, double thickness,
                             const LimitsOptions& options = {}, std::span<const TailoredPiece> pieces = {});
 

@@ -122,16 +122,19 @@ double least_length(const TriMesh& mesh)
 Eigen::AlignedBox3d slab(const Eigen::Matrix3d& t, int longest, double from, double to)
 {
     const Eigen::Vector3d a = t.col(longest), b = t.col((longest + 1) % 3), c = t.col((longest + 2) % 3);
-    const double top = std::clamp((c - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0); // share below c
+    // share below c
+    const double top = std::clamp((c - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
     Eigen::AlignedBox3d box;
     for (const double s : {from, to}) {
         box.extend(a + s * (b - a));
-        const double up = s <= top ? (top > 0 ? s / top : 1) : (1 - s) / (1 - top); // share of the height there
+        // share of the height there
+        const double up = s <= top ? (top > 0 ? s / top : 1) : (1 - s) / (1 - top);
         box.extend(s <= top ? Eigen::Vector3d(a + up * (c - a)) : Eigen::Vector3d(b + up * (c - b)));
     }
     if (from <= top && top <= to)
         box.extend(c);
-    const double slack = 8 * std::numeric_limits<double>::epsilon() * t.cwiseAbs().maxCoeff(); // of rounding
+    // of rounding
+    const double slack = 8 * std::numeric_limits<double>::epsilon() * t.cwiseAbs().maxCoeff();
     box.min().array() -= slack;
     box.max().array() += slack;
     return box;

@@ -11,7 +11,8 @@ namespace spia {
 
 namespace {
 
-/// Share of b in the place of the segment ab that is nearest to the point; 0 for a segment of no length.
+/// Share of b in the place of the segment ab that is nearest to the point; 0 for a segment of no
+/// length.
 double closest_on_segment(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& point)
 {
     const double along = (b - a).dot(point - a), squared_length = (b - a).squaredNorm();
@@ -28,8 +29,8 @@ double squared_distance(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p
 
 Eigen::Vector3d closest_on_triangle(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& point)
 {
-    // Inside the prism over the triangle it is the foot of the perpendicular: all three areas it spans with the edges
-    // are on the inner side. Else it is on one of the edges.
+    // Inside the prism over the triangle it is the foot of the perpendicular: all three areas it
+    // spans with the edges are on the inner side. Else it is on one of the edges.
     const Eigen::Vector3d edge_1 = triangle.col(1) - triangle.col(0), edge_2 = triangle.col(2) - triangle.col(0);
     const Eigen::Vector3d normal = edge_1.cross(edge_2);
     Eigen::Vector3d inner;
@@ -38,7 +39,8 @@ Eigen::Vector3d closest_on_triangle(const Eigen::Matrix3d& triangle, const Eigen
         inner[k] = (b - a).cross(point - a).dot(normal);
     }
     const bool inside = inner.minCoeff() >= 0 && inner.sum() > 0;
-    // The foot loses as many digits as the triangle is thin; on a needle an edge may be the better answer.
+    // The foot loses as many digits as the triangle is thin; on a needle an edge may be the better
+    // answer.
     constexpr double needle = 1e-6;
     if (inside && normal.norm() > needle * std::max(edge_1.squaredNorm(), edge_2.squaredNorm()))
         return inner / inner.sum();
@@ -87,7 +89,8 @@ ClosestPoint ClosestPointSearch::nearest(const Eigen::Vector3d& point, double wi
     stack[size_t(waiting++)] = {0, squared_distance(tree_->node[0].box, point)};
     while (waiting > 0) {
         Waiting here = stack[size_t(--waiting)];
-        // Equally near boxes are opened too, so that of equally near faces the one of smallest index is found.
+        // Equally near boxes are opened too, so that of equally near faces the one of smallest
+        // index is found.
         while (here.squared <= best) {
             const BoxTree::Node& node = tree_->node[size_t(here.node)];
             if (node.count > 0) {

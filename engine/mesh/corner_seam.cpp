@@ -14,7 +14,8 @@ std::optional<CornerSeam> corner_seam(const TriMesh& part)
 {
     constexpr double corner = 0.1; // radians; a wall joined at 6 degrees can as well be drawn
     constexpr double unrolls =
-        0.02; // radians, all together: bent parts measured have 0 to rounding, drawn ones 0.9 and more
+        0.02; // radians, all together: bent parts measured have 0 to rounding, drawn ones 0.9 and
+              // more
     constexpr size_t most = 64;
     const Eigen::VectorXd defect = angle_defects(part);
     CornerSeam seam;

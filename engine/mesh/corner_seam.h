@@ -6,17 +6,22 @@
 
 namespace spia {
 
-/// Cuts that let a part unroll without strain: those of a tray whose walls are joined at its corners, say.
+/// Cuts that let a part unroll without strain: those of a tray whose walls are joined at its
+/// corners, say.
 struct CornerSeam {
     std::vector<std::vector<int>> path; ///< vertices, from a corner to the border, edge by edge
-    std::vector<int> corner;            ///< vertices that lack most of their angle, or have too much of it
+    std::vector<int> corner;            ///< vertices that lack most of their angle, or have too
+                                        ///< much of it
     double length = 0;                  ///< mm, of the paths
-    double defect = 0;                  ///< radians, the greatest that a corner lacks or has too much
+    double defect = 0;                  ///< radians, the greatest that a corner lacks or has too
+                                        ///< much
 };
 
-/// Looks for a few inner vertices that hold all of the part's curvature, and for the shortest ways from them to the border.
+/// Looks for a few inner vertices that hold all of the part's curvature, and for the shortest ways
+/// from them to the border.
 /// @param part a sheet: one component, manifold, with a border
-/// @returns nothing if the part unrolls as it is, or would not after such cuts: it is curved elsewhere
+/// @returns nothing if the part unrolls as it is, or would not after such cuts: it is curved
+/// elsewhere
 std::optional<CornerSeam> corner_seam(const TriMesh& part);
 
 } // namespace spia

@@ -20,7 +20,8 @@
 namespace spia {
 namespace {
 
-/// The marked edges as rows of vertices: from each crossing or end to the next, then the closed rows that are left.
+/// The marked edges as rows of vertices: from each crossing or end to the next, then the closed
+/// rows that are left.
 std::vector<std::vector<int>> rows_of(const EdgeGraph& graph, std::vector<char> cut)
 {
     std::vector<int> degree(size_t(graph.vertices()), 0);
@@ -154,11 +155,11 @@ CutPart cut_closed(const TriMesh& part)
 /// The boundary of a part, its lengths and how it turns.
 struct Rims {
     std::vector<std::vector<int>> loop;
-    std::vector<double> length; ///< mm; the longest comes first
-    std::vector<double>
-        turning;          ///< to the left in the surface, the sheet on the left: 2 pi around a flat one, -2 pi at
-                          ///< its holes, 0 at the ends of a tube
-    double curvature = 0; ///< radians, of all vertices inside without their signs: 0 where the sheet is only bent
+    std::vector<double> length;  ///< mm; the longest comes first
+    std::vector<double> turning; ///< to the left in the surface, the sheet on the left: 2 pi around
+                                 ///< a flat one, -2 pi at its holes, 0 at the ends of a tube
+    double curvature = 0;        ///< radians, of all vertices inside without their signs: 0 where
+                                 ///< the sheet is only bent
 };
 
 Rims rims_of(const TriMesh& part, std::vector<std::vector<int>> loops)
@@ -194,7 +195,8 @@ Rims rims_of(const TriMesh& part, std::vector<std::vector<int>> loops)
 /// Cuts the tube that would suffer most, if there is one.
 std::optional<CutPart> cut_tube(const TriMesh& part, const Rims& rims)
 {
-    // Logarithms of the scale. Rings at the limit came out of the solver with equivalent strains of 0.8.
+    // Logarithms of the scale. Rings at the limit came out of the solver with equivalent strains of
+    // 0.8.
     constexpr double most_ring = std::numbers::ln2, least_gain = 0.5;
     constexpr double least_end = 0.25; // of the length of the loop looked at
     constexpr double window = -1.5 * std::numbers::pi;
@@ -204,7 +206,8 @@ std::optional<CutPart> cut_tube(const TriMesh& part, const Rims& rims)
     std::vector<char> ends(size_t(part.vertices()), 0), worst_ends;
     size_t worst = rims.loop.size();
     double ring = most_ring;
-    // Sheet that is only bent unrolls between its windows; the front is not exact among the needles of bends.
+    // Sheet that is only bent unrolls between its windows; the front is not exact among the needles
+    // of bends.
     constexpr double only_bent = 1; // radians; of a dome 2 pi
     for (const bool windows_count : {false, true}) {
         if (windows_count && rims.curvature < only_bent)
@@ -248,7 +251,8 @@ std::optional<CutPart> cut_tube(const TriMesh& part, const Rims& rims)
 std::optional<CutPart> cut_bottle(const TriMesh& part, const Rims& rims)
 {
     constexpr double narrow = 0.25;
-    // The girth of a body is about the root of pi times its area; a mouth far below that is worth a look.
+    // The girth of a body is about the root of pi times its area; a mouth far below that is worth a
+    // look.
     if (rims.loop.empty() || rims.length[0] * rims.length[0] > area(part))
         return std::nullopt;
     FrontMarch march(part);
@@ -330,7 +334,8 @@ SurfaceType type_of(const TriMesh& part, const std::vector<std::vector<int>>& lo
     for (const std::vector<int>& loop : loops)
         sides += int(loop.size());
     type.loops = int(loops.size());
-    const int characteristic = vertices - sides / 2 + part.triangles(); // 2 components - 2 genus - loops
+    // 2 components - 2 genus - loops
+    const int characteristic = vertices - sides / 2 + part.triangles();
     type.genus = (2 * type.components - type.loops - characteristic) / 2;
     return type;
 }

@@ -99,7 +99,8 @@ std::optional<FittedCylinder> fitted(const FittedCylinder& from, const Eigen::Ma
         const Eigen::VectorXd distance = off.colwise().norm().transpose();
         if (!(size > 0) || !(distance.minCoeff() > 0))
             return std::nullopt;
-        // The distance from the axis by its point, its tilt (as what that moves a place so far along it as all are) and the radius.
+        // The distance from the axis by its point, its tilt (as what that moves a place so far
+        // along it as all are) and the radius.
         Eigen::MatrixXd slope(place.cols(), 5);
         const Eigen::Matrix2Xd out = off.array().rowwise() / distance.transpose().array();
         slope.leftCols(2) = -out.transpose();

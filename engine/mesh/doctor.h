@@ -67,17 +67,22 @@ struct Finding {
     Fault fault;
     Severity severity;
     int count;
-    int first;                   ///< face or vertex (see Fault) as in the file, counted from 0; -1 if none can be named
-    std::string text;            ///< what was found and, if repaired, what was done
-    std::string advice;          ///< what to do about it; empty if nothing has to be done
-    std::vector<int> where = {}; ///< as `first`, at most a thousand; empty if none can be named
-    std::vector<Eigen::Vector3d> place = {}; ///< of `where`, as in the soup; also of what was taken out
-    std::vector<std::string> what = {};  ///< of `where`, e.g. how wide; empty if there is nothing to tell them apart
-    std::optional<double> weld_gap = {}; ///< mm, of a crack: what would close it
+    int first;                               ///< face or vertex (see Fault) as in the file, counted
+                                             ///< from 0; -1 if none can be named
+    std::string text;                        ///< what was found and, if repaired, what was done
+    std::string advice;                      ///< what to do about it; empty if nothing has to be
+                                             ///< done
+    std::vector<int> where = {};             ///< as `first`, at most a thousand; empty if none can
+                                             ///< be named
+    std::vector<Eigen::Vector3d> place = {}; ///< of `where`, as in the soup; also of what was taken
+                                             ///< out
+    std::vector<std::string> what = {};      ///< of `where`, e.g. how wide; empty if there is
+                                             ///< nothing to tell them apart
+    std::optional<double> weld_gap = {};     ///< mm, of a crack: what would close it
 };
 
-/// What the examination found. The numbers describe the mesh after the repairs; those without a value have no
-/// meaning for it (an edge with three faces, a one-sided surface).
+/// What the examination found. The numbers describe the mesh after the repairs; those without a
+/// value have no meaning for it (an edge with three faces, a one-sided surface).
 struct DoctorReport {
     std::vector<Finding> findings;           ///< in the order of the examination
     int components = 0;                      ///< pieces connected by edges
@@ -91,26 +96,32 @@ struct DoctorReport {
 };
 
 struct DoctorOptions {
-    bool weld = false;            ///< join vertices at one place; right for files that repeat a vertex in each face
-    double weld_tolerance = 1e-6; ///< of the diagonal: gaps closed at open edges; 0: equal coordinates only
+    bool weld = false;                   ///< join vertices at one place; right for files that
+                                         ///< repeat a vertex in each face
+    double weld_tolerance = 1e-6;        ///< of the diagonal: gaps closed at open edges; 0: equal
+                                         ///< coordinates only
     std::optional<double> weld_gap = {}; ///< mm, in its place
-    bool keep_largest = false;   ///< leave out all but the largest piece, and what hangs on edges of three faces
-    double sliver_angle_deg = 1; ///< a triangle with a smaller angle is noted
+    bool keep_largest = false;           ///< leave out all but the largest piece, and what hangs on
+                                         ///< edges of three faces
+    double sliver_angle_deg = 1;         ///< a triangle with a smaller angle is noted
 };
 
 /// A soup turned into a mesh, and what was found on the way.
 struct Examination {
-    TriMesh mesh;                   ///< repaired as far as possible; a part only if the report is healthy
-    std::vector<int> source_vertex; ///< per vertex of mesh its number in the soup; never decreases, and
-                                    ///< repeats only where touching fans were separated
-    std::vector<int> source_face;   ///< per triangle of mesh its polygon in the soup; never decreases
+    TriMesh mesh;                   ///< repaired as far as possible; a part only if the report is
+                                    ///< healthy
+    std::vector<int> source_vertex; ///< per vertex of mesh its number in the soup; never decreases,
+                                    ///< and repeats only where touching fans were separated
+    std::vector<int> source_face;   ///< per triangle of mesh its polygon in the soup; never
+                                    ///< decreases
     DoctorReport report;
-    std::vector<int> same_as = {}; ///< per vertex of the soup the one that stands for it: itself unless it was joined
+    std::vector<int> same_as = {}; ///< per vertex of the soup the one that stands for it: itself
+                                   ///< unless it was joined
 };
 
-/// Makes a triangle mesh of a polygon soup: joins, splits, turns and removes what can be repaired without changing the
-/// sheet, and reports every change and every fault that is left. Vertices and faces keep the order of the file. Never
-/// throws for what the soup contains (only Cancelled).
+/// Makes a triangle mesh of a polygon soup: joins, splits, turns and removes what can be repaired
+/// without changing the sheet, and reports every change and every fault that is left. Vertices and
+/// faces keep the order of the file. Never throws for what the soup contains (only Cancelled).
 Examination examine(const PolygonSoup& soup, const DoctorOptions& options = {}, const Progress& progress = {});
 
 /// @throws InputError with the first three fatal findings and what to do about them

@@ -13,7 +13,8 @@ namespace {
 
 void count_pieces(const MendedSurface& s, DoctorReport& report)
 {
-    std::vector<std::pair<double, int>> size(size_t(report.components), {0, 0}); // area and triangles
+    // area and triangles
+    std::vector<std::pair<double, int>> size(size_t(report.components), {0, 0});
     for (size_t f = 0; f < s.piece.size(); ++f) {
         const auto corner = [&](int k) { return s.soup.position[size_t(s.home[size_t(s.triangle[f][k])])]; };
         auto& [area, triangles] = size[size_t(s.piece[f])];
@@ -58,8 +59,8 @@ struct Outline {
 
 Outline outline(const MendedSurface& s, int pieces)
 {
-    // Every vertex has one fan now, so at most two boundary edges meet there and a loop is a connected set of
-    // them.
+    // Every vertex has one fan now, so at most two boundary edges meet there and a loop is a
+    // connected set of them.
     DisjointSets sets(s.home.size());
     std::vector<int> piece_of(s.home.size(), -1);
     Outline result;

@@ -61,8 +61,8 @@ EdgePaths shortest_paths(const EdgeGraph& graph, const std::vector<int>& sources
         open.pop();
         if (std::exchange(done[size_t(settled.back())], char(1)))
             settled.clear();
-        // A rim that costs nothing is reached as a whole, by one way only: else two ways of the same length to it would
-        // enclose a piece of the part.
+        // A rim that costs nothing is reached as a whole, by one way only: else two ways of the
+        // same length to it would enclose a piece of the part.
         while (!settled.empty()) {
             const int v = settled.back();
             settled.pop_back();

@@ -57,7 +57,8 @@ BoxTree tree_of(const PolygonSoup& soup, const std::vector<int>& same_as, const 
     return BoxTree(mesh);
 }
 
-/// Calls visit(i) with the places in the tree that may be nearer to the point than within(), which may shrink.
+/// Calls visit(i) with the places in the tree that may be nearer to the point than within(), which
+/// may shrink.
 template <class Within, class Visit>
 void visit_near(const BoxTree& tree, const Eigen::Vector3d& point, const Within& within, const Visit& visit)
 {

@@ -3,7 +3,8 @@
 
 namespace spia {
 
-/// 3 by #F: the face across the edge from corner k to the next one; -1 where there is none or there are more than one.
+/// 3 by #F: the face across the edge from corner k to the next one; -1 where there is none or there
+/// are more than one.
 /// @param uses  edge_uses() of the faces
 inline Eigen::Matrix3Xi face_neighbours(int faces, const std::vector<EdgeUse>& uses)
 {

@@ -17,11 +17,13 @@ namespace spia {
 
 namespace {
 
-constexpr double largest_cotangent = 1e3; // of a sliver: keeps one bad triangle from ruling the equations
+constexpr double largest_cotangent = 1e3; // of a sliver: keeps one bad triangle from ruling the
+                                          // equations
 
 double loop_area(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane)
 {
-    const Eigen::Vector2d origin = plane.col(loop[0]); // keeps the digits of a blank far from the origin
+    const Eigen::Vector2d origin = plane.col(loop[0]); // keeps the digits of a blank far from the
+                                                       // origin
     double doubled = 0;
     for (size_t i = 0; i < loop.size(); ++i)
         doubled += cross(plane.col(loop[i]) - origin, plane.col(loop[(i + 1) % loop.size()]) - origin);
@@ -111,9 +113,9 @@ void append(FilledMesh& filled, const Additions& additions)
             additions.triangle[t][2];
 }
 
-/// Places the vertices marked in `free`: least squares of the Laplacian over the plane at the vertices marked
-/// in `row`, weighted with the area around them. Linear functions of the plane make it zero, whatever the
-/// triangles.
+/// Places the vertices marked in `free`: least squares of the Laplacian over the plane at the
+/// vertices marked in `row`, weighted with the area around them. Linear functions of the plane make
+/// it zero, whatever the triangles.
 void place_in_space(FilledMesh& filled, const std::vector<char>& free, const std::vector<char>& row)
 {
     TriMesh& mesh = filled.mesh;
@@ -165,7 +167,8 @@ void place_in_space(FilledMesh& filled, const std::vector<char>& free, const std
         throw InputError("the holes of the part could not be filled smoothly: their edges have no extent in the "
                          "blank; close the slits of the part first");
     Eigen::MatrixX3d solution = factor.solve(laplacian.transpose() * right);
-    // The normal equations square the condition; one correction with the residual gives the lost digits back.
+    // The normal equations square the condition; one correction with the residual gives the lost
+    // digits back.
     const Eigen::MatrixX3d residual = right - laplacian * solution;
     solution += factor.solve(laplacian.transpose() * residual);
     for (size_t v = 0; v < free.size(); ++v)

@@ -47,7 +47,8 @@ PlaneTriangles with_fine_rims(const MiddleOfSolid& part, const UnrolledBend& ben
     for (const BendHole& hole : holes)
         for (size_t i = 0; i < hole.rim.size(); ++i)
             hole_at[edge_key(hole.rim[i], hole.rim[(i + 1) % hole.rim.size()])] = &hole;
-    constexpr double least = 1e-4; // of the height over the longest edge: the doctor calls 1e-6 no area
+    constexpr double least = 1e-4; // of the height over the longest edge: the doctor calls 1e-6 no
+                                   // area
     PlaneTriangles result = triangles;
     result.triangle.clear();
     for (const PlaneTriangle& t : triangles.triangle) {

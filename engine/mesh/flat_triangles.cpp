@@ -25,7 +25,8 @@ public:
 
     FlatRepair result;
 
-    /// So many triangles at one corner are no sheet; searching among them takes their number squared.
+    /// So many triangles at one corner are no sheet; searching among them takes their number
+    /// squared.
     bool crowded(int f)
     {
         return std::any_of(tri(f).begin(), tri(f).end(), [&](int v) { return around_[size_t(v)].size() > 200; });
@@ -56,8 +57,8 @@ public:
         return true;
     }
 
-    /// Turns the longest edge of a cap into the one that joins its tip with the opposite corner of the
-    /// neighbour.
+    /// Turns the longest edge of a cap into the one that joins its tip with the opposite corner of
+    /// the neighbour.
     bool flip_cap(int f)
     {
         const int k = extreme_side(f, true);
@@ -151,8 +152,8 @@ private:
         return false;
     }
 
-    /// The link condition: a surface stays one if the two ends share no neighbours but the tips of the removed faces,
-    /// and no inner edge joins two boundary vertices.
+    /// The link condition: a surface stays one if the two ends share no neighbours but the tips of
+    /// the removed faces, and no inner edge joins two boundary vertices.
     bool link_allows_joining(int a, int b, const std::vector<int>& sharing)
     {
         if (sharing.size() == 2 && on_boundary(a) && on_boundary(b))
@@ -235,8 +236,9 @@ FlatRepair repair_flat_triangles(std::vector<Triangle>& triangles, const std::ve
     const auto still_flat = [&](int f) {
         return !surgery.result.removed[size_t(f)] && is_flat(triangles[size_t(f)], position);
     };
-    // One repair can make room for another: go round until a whole round changes nothing. Real parts need a
-    // handful of rounds; the limit is for made-up chains that would give up one triangle per round.
+    // One repair can make room for another: go round until a whole round changes nothing. Real
+    // parts need a handful of rounds; the limit is for made-up chains that would give up one
+    // triangle per round.
     constexpr int rounds = 100;
     bool changed = true;
     for (int round = 0; changed && round < rounds; ++round) {

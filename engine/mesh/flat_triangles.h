@@ -6,8 +6,9 @@
 
 namespace spia {
 
-/// Triangles without area are lower than this part of their longest edge. Single precision moves a corner by
-/// 6e-8 of its coordinate, so a lower triangle in such a file says nothing about the sheet.
+/// Triangles without area are lower than this part of their longest edge. Single precision moves a
+/// corner by 6e-8 of its coordinate, so a lower triangle in such a file says nothing about the
+/// sheet.
 constexpr double flat_height = 1e-6;
 
 bool is_flat(const Triangle& t, const std::vector<Eigen::Vector3d>& position);
@@ -21,8 +22,9 @@ struct FlatRepair {
     std::vector<int> left;     ///< triangles that could not be repaired, increasing
 };
 
-/// Removes triangles without area where the surface keeps its shape and stays a surface (no edge gets a third
-/// face, no vertex a second fan). Expects edges with at most two triangles, consistently oriented.
+/// Removes triangles without area where the surface keeps its shape and stays a surface (no edge
+/// gets a third face, no vertex a second fan). Expects edges with at most two triangles,
+/// consistently oriented.
 FlatRepair repair_flat_triangles(std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& position);
 
 } // namespace spia

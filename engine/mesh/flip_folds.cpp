@@ -33,8 +33,9 @@ public:
         const StatedSurface& s = options_.surface[size_t(middle_.source_face[size_t(f)])];
         return s.kind == StatedSurface::Kind::cylinder ? &s : nullptr;
     }
-    /// mm2, of a triangle in the place of two of one surface, or of one; below 0 where it looks the other way than they do on the outer skin.
-    /// On a cylinder it is seen unrolled: chords have all the normals of a bend, and do not tell whether one near its rim turns over.
+    /// mm2, of a triangle in the place of two of one surface, or of one; below 0 where it looks the
+    /// other way than they do on the outer skin. On a cylinder it is seen unrolled: chords have all
+    /// the normals of a bend, and do not tell whether one near its rim turns over.
     double area(int f, int g, const Eigen::Matrix3Xd& position, const std::array<int, 3>& t) const
     {
         Eigen::Matrix3d corner;
@@ -74,7 +75,8 @@ public:
         for (size_t u = 0; u < uses_.size(); ++u)
             use_of_[3 * size_t(uses_[u].face) + size_t(uses_[u].corner)] = u;
     }
-    /// The best one of a triangle: within its CAD face, sound on the outer skin and better on the middle surface.
+    /// The best one of a triangle: within its CAD face, sound on the outer skin and better on the
+    /// middle surface.
     Flip best(int f) const
     {
         Flip best;
@@ -164,7 +166,8 @@ void flip_folds(TriMesh& outer, SkinMesh& middle, const ThinSolidOptions& option
         if (turned.empty())
             return;
         const FlipSearch search(outer, middle, options);
-        std::vector<char> done(size_t(outer.vertices()), 0); // around them edges are no longer those of the search
+        std::vector<char> done(size_t(outer.vertices()), 0); // around them edges are no longer
+                                                             // those of the search
         bool any = false;
         for (const int f : turned) {
             const Flip flip = search.best(f);

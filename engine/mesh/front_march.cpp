@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// When a front that passed a at time t_a and b at t_b arrives at c: as a straight front across the triangle where it comes
-/// from between them, else along an edge.
+/// When a front that passed a at time t_a and b at t_b arrives at c: as a straight front across the
+/// triangle where it comes from between them, else along an edge.
 double arrival(const Vector3d& a, const Vector3d& b, const Vector3d& c, double t_a, double t_b)
 {
     const double along_edge = std::min(t_a + (c - a).norm(), t_b + (c - b).norm());

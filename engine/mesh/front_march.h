@@ -5,8 +5,9 @@
 
 namespace spia {
 
-/// Distances over a surface from rows of vertices, by fronts that cross the triangles: the fast marching method. [Kimmel and
-/// Sethian 1998] Its working arrays are kept between runs, so that a run costs what it reaches.
+/// Distances over a surface from rows of vertices, by fronts that cross the triangles: the fast
+/// marching method. [Kimmel and Sethian 1998] Its working arrays are kept between runs, so that a
+/// run costs what it reaches.
 class FrontMarch {
 public:
     /// @param part must outlive it
@@ -15,9 +16,11 @@ public:
     /// Ends at the first vertex for which `stop` is 1. @param stop #V
     void run(const std::vector<int>& sources, const std::vector<char>& stop);
 
-    double distance(int v) const { return distance_[size_t(v)]; } ///< mm; infinity where the last run did not get
-    const std::vector<int>& reached() const { return reached_; }  ///< vertices with a distance
-    double end() const { return end_; }                           ///< mm, of the vertex that ended the run, or the last
+    /// mm; infinity where the last run did not get
+    double distance(int v) const { return distance_[size_t(v)]; }
+    const std::vector<int>& reached() const { return reached_; } ///< vertices with a distance
+    /// mm, of the vertex that ended the run, or the last
+    double end() const { return end_; }
     const TriMesh& part() const { return *part_; }
 
     /// Faces with a distance at each of their corners, each once.

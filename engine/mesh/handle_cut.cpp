@@ -45,7 +45,8 @@ std::vector<char> greedy_cut(const EdgeGraph& graph, const std::vector<int>& bas
     for (size_t i = 1; base.size() > 1 && i < base.size(); ++i)
         in_tree[size_t(graph.find(base[i - 1], base[i]))] = 1;
 
-    // The longest cotree takes the edges with the longest loops first. Holes are faces, too: they are capped.
+    // The longest cotree takes the edges with the longest loops first. Holes are faces, too: they
+    // are capped.
     const auto loop_length = [&](int e) {
         const EdgeGraph::Edge& edge = graph.edge[size_t(e)];
         return paths.distance[size_t(edge.low)] + paths.distance[size_t(edge.high)] +
@@ -90,7 +91,8 @@ std::vector<int> handle_cut(const EdgeGraph& graph, const std::vector<std::vecto
     for (size_t l = 0; l < loops.size(); ++l)
         for (const int v : loops[l])
             loop_of[size_t(v)] = int(l);
-    constexpr int most_visits = 4'000'000, least_bases = 6, most_bases = 48; // a second or two for a large part
+    // a second or two for a large part
+    constexpr int most_visits = 4'000'000, least_bases = 6, most_bases = 48;
     const int count = std::clamp(most_visits / (graph.vertices() * genus), least_bases, most_bases);
     std::vector<std::vector<int>> bases(loops.begin(), loops.begin() + std::min<long>(long(loops.size()), count / 2));
     while (int(bases.size()) < count)

@@ -30,7 +30,8 @@ bool sound(const PlaneTriangles& triangles)
     return std::ranges::all_of(triangles.triangle, [&](const auto& t) { return quality(triangles, t.corner) > least; });
 }
 
-/// The bend's triangles with the rims of the holes where their walls meet the middle of the sheet; nothing if they cannot be made sound.
+/// The bend's triangles with the rims of the holes where their walls meet the middle of the sheet;
+/// nothing if they cannot be made sound.
 std::optional<PlaneTriangles> with_holes(const MiddleOfSolid& part, const UnrolledBend& bend,
                                          const std::vector<BendHole>& holes)
 {
@@ -41,14 +42,16 @@ std::optional<PlaneTriangles> with_holes(const MiddleOfSolid& part, const Unroll
     const auto coarse = moved(bend.triangles, to);
     if (!coarse)
         return std::nullopt;
-    // Needles of a rim with many vertices may be cut into triangles without area: those keep the rim as it is.
+    // Needles of a rim with many vertices may be cut into triangles without area: those keep the
+    // rim as it is.
     for (const PlaneTriangles& triangles : {with_fine_rims(part, bend, holes, *coarse), *coarse})
         if (auto cut = cut_at_bend_ends(part, bend, triangles); cut && sound(*cut))
             return cut;
     return std::nullopt;
 }
 
-/// mm, per vertex of the middle surface and of those added in the plane: rims where they are in the plane now.
+/// mm, per vertex of the middle surface and of those added in the plane: rims where they are in the
+/// plane now.
 Eigen::Matrix3Xd places_of(const SkinMesh& middle, const UnrolledBend& bend, const std::vector<BendHole>& holes,
                            const PlaneTriangles& triangles)
 {

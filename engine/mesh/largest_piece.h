@@ -13,8 +13,9 @@ struct Pieces {
     int largest = -1; ///< by area
 };
 
-/// Pieces that hang together by edges. At an edge of more than two faces the sheet goes on only between the two that
-/// continue each other most smoothly, so that a rib or a second layer is a piece of its own.
+/// Pieces that hang together by edges. At an edge of more than two faces the sheet goes on only
+/// between the two that continue each other most smoothly, so that a rib or a second layer is a
+/// piece of its own.
 Pieces smooth_pieces(const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& position);
 
 } // namespace spia

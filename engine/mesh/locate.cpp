@@ -109,7 +109,8 @@ MeshPoint PlanarLocator::nearest(const Eigen::Vector2d& point) const
         look(*it);
     if (best.face >= 0 && best.distance == 0)
         return best;
-    // Outside: the triangle in the nearest box bounds the distance, and only boxes within it can do better.
+    // Outside: the triangle in the nearest box bounds the distance, and only boxes within it can do
+    // better.
     for (auto it = tree_->boxes.qbegin(bg::index::nearest(p, 1)); it != tree_->boxes.qend(); ++it)
         look(*it);
     const double r = best.distance;

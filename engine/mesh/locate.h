@@ -9,12 +9,13 @@ namespace spia {
 struct MeshPoint {
     int face = -1;                                         ///< -1: no place
     Eigen::Vector3d barycentric = Eigen::Vector3d::Zero(); ///< not negative, sum 1
-    double distance = 0;                                   ///< from the point that was asked for; 0 inside the face
+    double distance = 0;                                   ///< from the point that was asked for; 0
+                                                           ///< inside the face
 };
 
-/// Finds the triangle of a flat mesh in which a point lies. The triangles may be slivers, turned over, or lie
-/// on top of each other. Building costs O(n log n), asking O(log n); asking from several threads at once is
-/// allowed.
+/// Finds the triangle of a flat mesh in which a point lies. The triangles may be slivers, turned
+/// over, or lie on top of each other. Building costs O(n log n), asking O(log n); asking from
+/// several threads at once is allowed.
 class PlanarLocator {
 public:
     /// @param position 2 by #V; @param triangle 3 by #F. Both are copied.
@@ -23,8 +24,9 @@ public:
     PlanarLocator(PlanarLocator&&) noexcept;
     PlanarLocator& operator=(PlanarLocator&&) noexcept;
 
-    /// The nearest place of the mesh, exactly the point itself if a triangle covers it. Among equally near
-    /// faces, the one in whose inside the point lies deepest, then the one with the lowest index.
+    /// The nearest place of the mesh, exactly the point itself if a triangle covers it. Among
+    /// equally near faces, the one in whose inside the point lies deepest, then the one with the
+    /// lowest index.
     MeshPoint nearest(const Eigen::Vector2d& point) const;
 
     /// Every face that covers the point or misses it by no more than tolerance(), by rising index.

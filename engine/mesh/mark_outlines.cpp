@@ -11,7 +11,8 @@
 namespace spia {
 namespace {
 
-/// Which triangles of marks have left the skin: all but islands, which are floors that lie in it once the marks are put back.
+/// Which triangles of marks have left the skin: all but islands, which are floors that lie in it
+/// once the marks are put back.
 class Sunken {
 public:
     Sunken(const TriMesh& solid, const ThinSolid& sheet, const PlainSolid& plain)

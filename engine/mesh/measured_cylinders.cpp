@@ -14,21 +14,23 @@
 namespace spia {
 namespace {
 
-// A mesher's chords turn by 0.5 rad at most (OpenCASCADE's default; ours 20 degrees), and by more than the triangles of one plane do that
-// are rounded to six digits: 1e-4 mm over a width of 0.1 mm.
+// A mesher's chords turn by 0.5 rad at most (OpenCASCADE's default; ours 20 degrees), and by more
+// than the triangles of one plane do that are rounded to six digits: 1e-4 mm over a width of 0.1
+// mm.
 constexpr double most_turn = 0.6, least_turn = 1e-3;
 constexpr double parallel = 5e-3; // radians: rounded likewise over a length of 0.02 mm and more
 
 /// Triangles of one skin with their corners on one cylinder.
 struct Region {
     FittedCylinder cylinder;
-    double bulging; ///< 1: the skin's normals, outwards from the solid, point away from the axis; else -1
+    double bulging; ///< 1: the skin's normals, outwards from the solid, point away from the axis;
+                    ///< else -1
     SheetSide side;
     std::vector<int> face; ///< ascending
 };
 
-/// mm, how far corners may be off: single precision of STL and five digits are 1e-5 to 1e-3 of usual thicknesses, the sagitta of a chord
-/// of 3 degrees is 3e-4 of the radius.
+/// mm, how far corners may be off: single precision of STL and five digits are 1e-5 to 1e-3 of
+/// usual thicknesses, the sagitta of a chord of 3 degrees is 3e-4 of the radius.
 double tight(double radius, double thickness) { return 1e-3 * std::min(radius, thickness); }
 
 /// mm, likewise of a cylinder through the first three places, which is not yet the one through all.
@@ -50,8 +52,9 @@ public:
 
     std::vector<Region> regions()
     {
-        // Surfaces that are curved in two ways have as many seeds as edges, and next to nothing grows from them: what gently curved
-        // ones cost is bounded: a dome of 104 000 triangles takes 1.3 s of processor. All bends of 75 meshed brackets are found within it.
+        // Surfaces that are curved in two ways have as many seeds as edges, and next to nothing
+        // grows from them: what gently curved ones cost is bounded: a dome of 104 000 triangles
+        // takes 1.3 s of processor. All bends of 75 meshed brackets are found within it.
         const size_t most_visits = 1'000'000 + 10 * taken_.size();
         // A cylinder has five measures: the more vertices lie on one, the surer it is.
         std::vector<Region> result;
@@ -128,8 +131,8 @@ private:
         return result;
     }
 
-    /// The cylinder that touches the plane of one triangle along the seed, and goes through the far corner of the other one: the first
-    /// chord beside a flat.
+    /// The cylinder that touches the plane of one triangle along the seed, and goes through the far
+    /// corner of the other one: the first chord beside a flat.
     std::optional<Region> tangential(const Seed& seed, int flat, int chord)
     {
         if (taken_[size_t(chord)])
@@ -198,10 +201,12 @@ private:
         return faces;
     }
 
-    /// All chords of the cylinder around some, and the cylinder that fits them; nothing if it is no bend.
+    /// All chords of the cylinder around some, and the cylinder that fits them; nothing if it is no
+    /// bend.
     std::optional<Region> grown(const FittedCylinder& cylinder, const std::vector<int>& from)
     {
-        // Where many corners of flats lie beside the bend the first fit is drawn to them; the first cylinder may be good enough without.
+        // Where many corners of flats lie beside the bend the first fit is drawn to them; the first
+        // cylinder may be good enough without.
         for (const double first : {1., 0.25, 0.0625})
             if (auto found = refined(cylinder, from, first * loose(cylinder.radius, sheet_.thickness)))
                 return found;
@@ -212,8 +217,8 @@ private:
     std::optional<Region> refined(const FittedCylinder& cylinder, const std::vector<int>& from, double within)
     {
         const double bulging = normal_.col(from.front()).dot(outwards(cylinder, middle(from.front()))) > 0 ? 1 : -1;
-        // Corners of a flat right beside a bend lie nearly on it, but farther off than the file's digits move those of the bend: the finest
-        // distance at which it is a bend is the best.
+        // Corners of a flat right beside a bend lie nearly on it, but farther off than the file's
+        // digits move those of the bend: the finest distance at which it is a bend is the best.
         constexpr double single = 1e-7, finer = 0.25; // of the diagonal, STL's
         Region region{cylinder, bulging, side(from.front()), {}};
         std::optional<Region> best;
@@ -227,14 +232,17 @@ private:
             region.cylinder = agreed(region);
             if (best && region.cylinder.off <= finer * within &&
                 std::ranges::any_of(from, [&](int f) { return !lies_on(solid_, region.cylinder, f, finer * within); }))
-                return std::nullopt; // a narrow triangle beside the bend, which is found from others
+                return std::nullopt; // a narrow triangle beside the bend, which is found from
+                                     // others
         }
-        // Where the finest has too few only corners beside the bend made them enough: its turn is later.
+        // Where the finest has too few only corners beside the bend made them enough: its turn is
+        // later.
         return best && few(*best) ? std::nullopt : best;
     }
 
-    /// The cylinder on which three quarters of the corners lie best: corners of a flat beside the bend draw the one through all of them away
-    /// from the bend's own. Least trimmed squares by the steps of [Rousseeuw, Van Driessen 2006].
+    /// The cylinder on which three quarters of the corners lie best: corners of a flat beside the
+    /// bend draw the one through all of them away from the bend's own. Least trimmed squares by the
+    /// steps of [Rousseeuw, Van Driessen 2006].
     FittedCylinder agreed(const Region& region) const
     {
         constexpr int most_steps = 8, unknowns = 5;
@@ -302,10 +310,12 @@ private:
                 case Beyond::other: break;
                 }
             }
-        // Where a hole crosses the end of a bend a narrow triangle may count to the other side; a wall of drawn sheet has an end all
-        // around. On one of both ends another bend may follow; not more of this one, whose vertices are rounded too much to tell.
+        // Where a hole crosses the end of a bend a narrow triangle may count to the other side; a
+        // wall of drawn sheet has an end all around. On one of both ends another bend may follow;
+        // not more of this one, whose vertices are rounded too much to tell.
         constexpr double few = 0.05, one_end = 0.4;
-        constexpr int two_chords = 3, many = 5; // their ends; a single one touches what was taken for it
+        constexpr int two_chords = 3, many = 5; // their ends; a single one touches what was taken
+                                                // for it
         const int places = places_around(region), vertices = int(corners(solid_, region.face).size());
         if (askew > few * (straight + askew) || goes_on > few * straight || places < two_chords)
             return false;
@@ -316,8 +326,9 @@ private:
 
     enum class Beyond { flat, chord, other };
 
-    /// What the sheet is on the other side of an edge along the axis: tangential, more of the cylinder, or bent otherwise. The far corner
-    /// tells: a narrow triangle of a flat beside the bend lies nearly on both.
+    /// What the sheet is on the other side of an edge along the axis: tangential, more of the
+    /// cylinder, or bent otherwise. The far corner tells: a narrow triangle of a flat beside the
+    /// bend lies nearly on both.
     Beyond beyond(const Region& region, int g, const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
     {
         const FittedCylinder& cylinder = region.cylinder;
@@ -365,7 +376,8 @@ struct Group {
     FittedCylinder cylinder; ///< of the first
 };
 
-/// The cylinder of the first region that fits all, with the thickness between both skins; nothing if none does.
+/// The cylinder of the first region that fits all, with the thickness between both skins; nothing
+/// if none does.
 std::optional<FittedCylinder> common(const TriMesh& solid, double thickness, const std::vector<Region>& regions,
                                      const std::vector<size_t>& chosen)
 {

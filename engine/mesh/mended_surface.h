@@ -21,9 +21,11 @@ struct MendedSurface {
 /// Leaves out the marked triangles. @param marked  #triangles, not 0 where one goes
 Tally remove(MendedSurface& s, const std::vector<char>& marked);
 
-// The repairs, in the order of the examination. Each reports what it has done and what it cannot mend.
+// The repairs, in the order of the examination. Each reports what it has done and what it cannot
+// mend.
 
-/// A triangle without area can be what makes an edge one of three faces. It is left out where this opens no other edge.
+/// A triangle without area can be what makes an edge one of three faces. It is left out where this
+/// opens no other edge.
 Tally drop_flat_at_crowded_edges(MendedSurface& s);
 
 /// Leaves out all but the largest piece of sheet.
@@ -35,7 +37,8 @@ void orient(MendedSurface& s, DoctorReport& report);
 /// @param dropped  triangles without area that were left out earlier
 void mend_flat_triangles(MendedSurface& s, const Tally& dropped, DoctorReport& report);
 
-/// Where faces meet in a vertex only, each further fan gets a copy of the vertex; the first face keeps it.
+/// Where faces meet in a vertex only, each further fan gets a copy of the vertex; the first face
+/// keeps it.
 void separate_fans(MendedSurface& s, DoctorReport& report);
 
 } // namespace spia

@@ -16,12 +16,14 @@ using Point = Eigen::Vector2d;
 using Triangle = std::array<int, 3>;
 
 constexpr double growth = 1.25;          // of the spacing from one ring of points to the next
-constexpr double flip_tolerance = 1e-10; // sine of what the angles against an edge exceed pi: keeps flips from cycling
+constexpr double flip_tolerance = 1e-10; // sine of what the angles against an edge exceed pi: keeps
+                                         // flips from cycling
 constexpr int most_passes = 60;
 
 double doubled_area(const Point& a, const Point& b, const Point& c) { return cross(b - a, c - a); }
 
-/// Doubled area over the squared longest edge: 0.87 for an equilateral triangle, 0 or less for a flat or turned one.
+/// Doubled area over the squared longest edge: 0.87 for an equilateral triangle, 0 or less for a
+/// flat or turned one.
 double shape(const Point& a, const Point& b, const Point& c)
 {
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
@@ -146,8 +148,8 @@ public:
         std::vector<int> open;
         for (int t = int(triangle_.size()) - 1; t >= 0; --t)
             open.push_back(t);
-        // Each flip lowers the paraboloid lifted over the points, so the loop ends; the bound is against
-        // rounding.
+        // Each flip lowers the paraboloid lifted over the points, so the loop ends; the bound is
+        // against rounding.
         for (size_t left = 100 * triangle_.size() + 1000; !open.empty() && left > 0; --left) {
             const int t = open.back();
             open.pop_back();
@@ -163,7 +165,8 @@ public:
         }
     }
 
-    /// Puts a point into every triangle that is large against the spacing at its corners. @return whether there was one
+    /// Puts a point into every triangle that is large against the spacing at its corners. @return
+    /// whether there was one
     bool refine()
     {
         const int count = int(triangle_.size());

@@ -9,10 +9,11 @@ struct PlanarMesh {
     Eigen::Matrix3Xi triangle; ///< 3 by #F, counter-clockwise
 };
 
-/// Meshes the inside of a polygon without moving or adding a vertex on its edge: ear clipping, then points
-/// inside whose spacing follows the edges around them and grows by a quarter from ring to ring, Delaunay
-/// throughout.
-/// @param outline 2 by n, n >= 3, counter-clockwise; its points become the first n vertices of the mesh
+/// Meshes the inside of a polygon without moving or adding a vertex on its edge: ear clipping, then
+/// points inside whose spacing follows the edges around them and grows by a quarter from ring to
+/// ring, Delaunay throughout.
+/// @param outline 2 by n, n >= 3, counter-clockwise; its points become the first n vertices of the
+/// mesh
 /// @return without triangles if the outline crosses itself, runs clockwise or has no area
 PlanarMesh mesh_polygon(const Eigen::Matrix2Xd& outline);
 

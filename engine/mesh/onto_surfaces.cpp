@@ -21,8 +21,10 @@ struct Around {
     const StatedSurface* cylinder = nullptr;       ///< one of them
     bool alone = true;                             ///< there is no other surface
     bool smooth = true;                            ///< the skin has one normal there
-    bool hollow = false;                           ///< the normals of the cylinder's faces look to its axis
-    Eigen::Vector3d out = Eigen::Vector3d::Zero(); ///< unit, the normal of the cylinder's faces at the vertex
+    bool hollow = false;                           ///< the normals of the cylinder's faces look to
+                                                   ///< its axis
+    Eigen::Vector3d out = Eigen::Vector3d::Zero(); ///< unit, the normal of the cylinder's faces at
+                                                   ///< the vertex
 };
 
 class Placing {
@@ -50,7 +52,8 @@ public:
             else if (here.smooth)
                 at_end[v] = onto_end(v);
         }
-        // Of a rim that is very slanted vertices of the bend's side go beyond its end; those of the end have to go before them.
+        // Of a rim that is very slanted vertices of the bend's side go beyond its end; those of the
+        // end have to go before them.
         for (const int f : turned())
             for (const int v : middle_.mesh.triangle.col(f))
                 if (std::exchange(at_end[size_t(v)], char(0)))
@@ -65,10 +68,12 @@ private:
     const ThinSolid& sheet_;
     const ThinSolidOptions& options_;
     std::vector<Around> around_;
-    TriMesh outer_;                        ///< the outer skin, with the vertices and triangles of the middle one
-    std::vector<std::vector<int>> beside_; ///< per vertex: those next to it along the border; empty: not asked for yet
-    Eigen::Matrix3Xd
-        wall_; ///< per vertex of the solid: area vectors of the faces across the thickness there, outwards; 0 without
+    TriMesh outer_;                        ///< the outer skin, with the vertices and triangles of
+                                           ///< the middle one
+    std::vector<std::vector<int>> beside_; ///< per vertex: those next to it along the border;
+                                           ///< empty: not asked for yet
+    Eigen::Matrix3Xd wall_; ///< per vertex of the solid: area vectors of the faces across the
+                            ///< thickness there, outwards; 0 without
 
     Eigen::Vector3d start(size_t v) const { return solid_.position.col(middle_.source_vertex[v]); }
     static Eigen::Vector3d across(const StatedSurface& cylinder, const Eigen::Vector3d& way)
@@ -125,8 +130,9 @@ private:
 
     std::vector<int> turned() const { return turned_over(outer_, middle_, options_); }
 
-    /// Beside the corner of a notch a vertex may go past it along its wall. Where triangles still turn over vertices of a slanted rim go the way
-    /// of those beside them, as their own wall lets them.
+    /// Beside the corner of a notch a vertex may go past it along its wall. Where triangles still
+    /// turn over vertices of a slanted rim go the way of those beside them, as their own wall lets
+    /// them.
     void even_out()
     {
         constexpr int rounds = 20; // as far as a vertex can be pushed along the border
@@ -199,7 +205,8 @@ private:
         Eigen::Matrix3d planes;
         planes << here.out.transpose(), wall.normalized().transpose(),
             here.out.cross(here.cylinder->direction).transpose();
-        constexpr double alike = 0.2; // as nearly parallel planes are for skin_of(): the rim runs along the end
+        constexpr double alike = 0.2; // as nearly parallel planes are for skin_of(): the rim runs
+                                      // along the end
         if (std::abs(planes.determinant()) < alike)
             return false;
         const Eigen::Vector3d move = planes.inverse() * Eigen::Vector3d(-sheet_.thickness / 2, 0, 0);

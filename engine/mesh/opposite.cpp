@@ -82,7 +82,8 @@ std::vector<Opposite> opposites(const TriMesh& mesh, const Eigen::Matrix3Xd& nor
     std::vector<Opposite> result = places(mesh, normal, spacing);
     progress.checkpoint(0.1, "looking through the sheet");
     const RayPicker rays(mesh);
-    const double off = 1e-7 * bounding_diagonal(mesh); // the ray must not meet the face it comes from
+    const double off = 1e-7 * bounding_diagonal(mesh); // the ray must not meet the face it comes
+                                                       // from
     constexpr int chunk = 50'000;
     const auto count = int(result.size());
     for (int first = 0; first < count; first += chunk) {
@@ -127,7 +128,8 @@ double main_distance(const std::vector<Opposite>& places, const std::vector<char
     std::sort(found.begin(), found.end());
     const auto [from, to] = heaviest(found, 0, found.size(), 1.1);
     const auto [first, last] = heaviest(found, from, to, 1.02);
-    // Flat walls are parallel and have one distance, to rounding; between chords of bends it spreads.
+    // Flat walls are parallel and have one distance, to rounding; between chords of bends it
+    // spreads.
     constexpr double parallel = 1 - 1e-9, least = 0.1;
     Weighted flat;
     double weight = 0, of_flat = 0;

@@ -23,8 +23,8 @@ Exact product(double a, double b)
     return {value, std::fma(a, b, -value)};
 }
 
-/// A sum of doubles without rounding: components of growing size that do not overlap, so that the last one that is not
-/// zero has the sign of the whole.
+/// A sum of doubles without rounding: components of growing size that do not overlap, so that the
+/// last one that is not zero has the sign of the whole.
 class Expansion {
 public:
     void add(double x) // Shewchuk's Grow-Expansion, zeros left out
@@ -70,7 +70,8 @@ int exact_sign(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::
 int orient2d(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {
     const double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]), det = left - right;
-    constexpr double epsilon = std::numeric_limits<double>::epsilon() / 2; // Shewchuk's: half the gap after 1
+    // Shewchuk's: half the gap after 1
+    constexpr double epsilon = std::numeric_limits<double>::epsilon() / 2;
     constexpr double bound = (3 + 16 * epsilon) * epsilon;
     const double error = bound * (std::abs(left) + std::abs(right));
     if (det > error)

@@ -37,8 +37,8 @@ double area(const Triangle& t, const std::vector<Vector3d>& position)
 
 } // namespace
 
-/// Floods each piece from its first triangle and turns over whatever shows the other side; then the piece as a whole if
-/// that was the smaller area.
+/// Floods each piece from its first triangle and turns over whatever shows the other side; then the
+/// piece as a whole if that was the smaller area.
 void orient(MendedSurface& s, DoctorReport& report)
 {
     const auto steps = neighbours(s.triangle);

@@ -54,8 +54,8 @@ struct Passage {
             return !(orient2d(v, from, x) >= 0 && orient2d(v, x, to) >= 0);
         return orient2d(v, to, x) > 0;
     }
-    /// Whether another way through v changes from one side of this one to the other. Where they share a direction their edges lie on
-    /// each other, which is looked at there.
+    /// Whether another way through v changes from one side of this one to the other. Where they
+    /// share a direction their edges lie on each other, which is looked at there.
     bool crossed_by(const Passage& other) const
     {
         return !runs_towards(other.from) && !runs_towards(other.to) && has_left(other.from) != has_left(other.to);
@@ -86,7 +86,8 @@ bool meet(const Edge& e, const Edge& f, const Eigen::Matrix2Xd& x)
         return false;
     if (ec != 0 && ed != 0 && fa != 0 && fb != 0)
         return true;
-    // A vertex on the other edge: the way through it crosses, or only touches. Seen from the edge that begins there.
+    // A vertex on the other edge: the way through it crosses, or only touches. Seen from the edge
+    // that begins there.
     const auto crossed_at = [&](const Edge& through, const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
         const int comes = orient2d(p, q, x.col(through.before)), goes = orient2d(p, q, x.col(through.b));
         return comes * goes < 0 || comes == 0 || goes == 0;

@@ -10,8 +10,8 @@ namespace spia {
 
 namespace {
 
-/// Where the sheet is pinched to a point the mesh has two vertices at one place, and the layout puts them there up to rounding: there
-/// they are put onto each other, to touch and not to cross.
+/// Where the sheet is pinched to a point the mesh has two vertices at one place, and the layout
+/// puts them there up to rounding: there they are put onto each other, to touch and not to cross.
 Eigen::Matrix2Xd with_pinches_closed(const TriMesh& part, const std::vector<std::vector<int>>& loops,
                                      const Eigen::Matrix2Xd& flat)
 {
@@ -33,8 +33,8 @@ Eigen::Matrix2Xd with_pinches_closed(const TriMesh& part, const std::vector<std:
     return closed;
 }
 
-/// Each border vertex drawn into the sheet by so much, along the middle of what there is of it around the vertex; at the tip of a
-/// slit, where that is all around, it stays.
+/// Each border vertex drawn into the sheet by so much, along the middle of what there is of it
+/// around the vertex; at the tip of a slit, where that is all around, it stays.
 Eigen::Matrix2Xd drawn_in(const TriMesh& part, const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& flat,
                           double by)
 {
@@ -47,7 +47,8 @@ Eigen::Matrix2Xd drawn_in(const TriMesh& part, const std::vector<std::vector<int
                                   b = (flat.col(part.triangle((k + 2) % 3, f)) - flat.col(v)).normalized();
             way.col(v) += Eigen::Vector2d(b.y() - a.y(), a.x() - b.x());
         }
-    constexpr double all_around = 1e-3; // of twice a unit vector, as it is at a straight border: but for 0.06 degrees
+    constexpr double all_around = 1e-3; // of twice a unit vector, as it is at a straight border:
+                                        // but for 0.06 degrees
     Eigen::Matrix2Xd result = flat;
     for (const std::vector<int>& loop : loops)
         for (const int v : loop)
@@ -59,7 +60,8 @@ Eigen::Matrix2Xd drawn_in(const TriMesh& part, const std::vector<std::vector<int
 /// Vertices whose faces go around them more than once.
 std::vector<int> wound(const TriMesh& part, const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& flat)
 {
-    // Count the triangles around a vertex that hold one and the same direction: at the boundary that of its first edge.
+    // Count the triangles around a vertex that hold one and the same direction: at the boundary
+    // that of its first edge.
     std::vector<int> towards(size_t(part.vertices()), -1), times(size_t(part.vertices()), 0);
     for (int f = 0; f < part.triangles(); ++f)
         for (int k = 0; k < 3; ++k)
@@ -99,9 +101,10 @@ Overlap overlap(const TriMesh& part, const Eigen::Matrix2Xd& flat)
     Overlap result{outline_crossings(loops, with_pinches_closed(part, loops, flat)), wound(part, loops, flat)};
     if (result.none())
         return result;
-    // The lips of a slit whose tongue is bent away come to lie on each other up to rounding only. What still lies on itself once
-    // all edges are drawn in by more than that does so indeed.
-    constexpr double rounding = 1e-6; // of the size of the layout: single precision of STL files is a tenth of that
+    // The lips of a slit whose tongue is bent away come to lie on each other up to rounding only.
+    // What still lies on itself once all edges are drawn in by more than that does so indeed.
+    constexpr double rounding = 1e-6; // of the size of the layout: single precision of STL files is
+                                      // a tenth of that
     const Eigen::Matrix2Xd inner =
         drawn_in(part, loops, flat, rounding * (flat.rowwise().maxCoeff() - flat.rowwise().minCoeff()).norm());
     const std::vector<OutlineCrossing> crossing = outline_crossings(loops, inner);

@@ -10,7 +10,8 @@
 namespace spia {
 namespace {
 
-/// A ray, prepared for many tests [Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, 2013].
+/// A ray, prepared for many tests [Woop, Benthin, Wald: Watertight Ray/Triangle Intersection,
+/// 2013].
 class PreparedRay {
 public:
     PreparedRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
@@ -29,8 +30,8 @@ public:
     {
         double near = 0, far = most;
         for (int k = 0; k < 3; ++k) {
-            // Of a ray along a side of the box one of them is 0 * infinity, not a number. In this order of the arguments such
-            // a side does not limit.
+            // Of a ray along a side of the box one of them is 0 * infinity, not a number. In this
+            // order of the arguments such a side does not limit.
             near = std::max(near, ((backwards_[size_t(k)] ? box.max() : box.min())[k] - origin_[k]) * inverse_[k]);
             far = std::min(far, ((backwards_[size_t(k)] ? box.min() : box.max())[k] - origin_[k]) * inverse_[k]);
         }
@@ -38,8 +39,8 @@ public:
         return near <= far * rounding ? near : infinity;
     }
 
-    /// Distance to the triangle (columns: its vertices), infinity if the ray misses it. Two triangles see a common edge with
-    /// the same rounding, so that no ray misses both.
+    /// Distance to the triangle (columns: its vertices), infinity if the ray misses it. Two
+    /// triangles see a common edge with the same rounding, so that no ray misses both.
     double meets(const Eigen::Matrix3d& triangle, Eigen::Vector3d& barycentric) const
     {
         const Eigen::Vector2d a = sheared(triangle.col(0)), b = sheared(triangle.col(1)), c = sheared(triangle.col(2));
@@ -67,8 +68,8 @@ private:
     Eigen::Index x_, y_, z_;
 };
 
-/// Calls visit(i) with the places in the tree of all faces whose boxes the ray meets within `most`, near ones first as far
-/// as the tree knows; visit may lessen `most`.
+/// Calls visit(i) with the places in the tree of all faces whose boxes the ray meets within `most`,
+/// near ones first as far as the tree knows; visit may lessen `most`.
 template <class Visit> void walk(const BoxTree& tree, const PreparedRay& ray, double& most, const Visit& visit)
 {
     struct Waiting {
@@ -80,7 +81,8 @@ template <class Visit> void walk(const BoxTree& tree, const PreparedRay& ray, do
     stack[size_t(waiting++)] = {0, ray.enters(tree.node[0].box, most)};
     while (waiting > 0) {
         Waiting here = stack[size_t(--waiting)];
-        // Equally near boxes are opened too, so that of equally near faces the one of lowest index is found.
+        // Equally near boxes are opened too, so that of equally near faces the one of lowest index
+        // is found.
         while (here.distance <= most && here.distance < infinity) {
             const BoxTree::Node& node = tree.node[size_t(here.node)];
             if (node.count > 0) {

@@ -14,7 +14,8 @@ struct FaceEdge {
 struct PlaneRegions {
     std::vector<int> of;        ///< per triangle, its plane
     Eigen::Matrix3Xd direction; ///< per plane, unit length, outwards
-    Eigen::VectorXd level;      ///< per plane, mm: how far from the origin it is along its direction
+    Eigen::VectorXd level;      ///< per plane, mm: how far from the origin it is along its
+                                ///< direction
 };
 
 /// Each triangle's plane is that of the largest one from which it can be reached in its plane.
@@ -24,8 +25,8 @@ struct PlaneRegions {
 PlaneRegions plane_regions(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour,
                            double within);
 
-/// The closed rows of edges that part a plane from others, per plane; those that touch others at a vertex, or border on nothing, are left
-/// out.
+/// The closed rows of edges that part a plane from others, per plane; those that touch others at a
+/// vertex, or border on nothing, are left out.
 std::vector<std::vector<std::vector<FaceEdge>>> borders_of(const PlaneRegions& planes, const TriMesh& solid,
                                                            const Eigen::Matrix3Xi& neighbour);
 

@@ -18,11 +18,12 @@ struct PlaneTriangle {
     int source; ///< the triangle of the solid that it is called by
 };
 
-/// Triangles of a surface that is laid in a plane, all the same way round. Vertices are called by their numbers in the surface; those that
-/// are added come after its last.
+/// Triangles of a surface that is laid in a plane, all the same way round. Vertices are called by
+/// their numbers in the surface; those that are added come after its last.
 struct PlaneTriangles {
     std::vector<Eigen::Vector2d> at; ///< mm, per vertex; of those without a triangle anything
-    std::vector<int> source_vertex;  ///< per vertex that of the solid; of an added one that of a vertex beside it
+    std::vector<int> source_vertex;  ///< per vertex that of the solid; of an added one that of a
+                                     ///< vertex beside it
     std::vector<PlaneTriangle> triangle;
     double way_round = 1; ///< -1 if they are seen from below
 
@@ -33,11 +34,14 @@ struct PlaneTriangles {
 /// mm2, below 0 of a triangle that is turned over.
 double area(const PlaneTriangles& triangles, const Triangle& corner);
 
-/// Height over the longest edge of a triangle, below 0 of one that is turned over; 0 if it is a point.
+/// Height over the longest edge of a triangle, below 0 of one that is turned over; 0 if it is a
+/// point.
 double quality(const PlaneTriangles& triangles, const Triangle& corner);
 
-/// The triangles when their vertices have moved, in small steps, with other diagonals where they would become next to nothing.
-/// @param to  mm, per vertex @returns nothing if some turn over all the same, or a place is not a number
+/// The triangles when their vertices have moved, in small steps, with other diagonals where they
+/// would become next to nothing.
+/// @param to  mm, per vertex @returns nothing if some turn over all the same, or a place is not a
+/// number
 std::optional<PlaneTriangles> moved(PlaneTriangles triangles, const std::vector<Eigen::Vector2d>& to);
 
 } // namespace spia

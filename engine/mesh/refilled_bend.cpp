@@ -53,8 +53,9 @@ std::vector<Flat> flats_of(const MarkedSkin& marked, std::vector<int> faces)
     return flats;
 }
 
-/// Of a mesh: a cylinder through the vertices of triangles at the mark that lie in none of two planes, of one or of none, whichever fits first.
-/// The planes are those with the most area; chords of the bend touch no cylinder.
+/// Of a mesh: a cylinder through the vertices of triangles at the mark that lie in none of two
+/// planes, of one or of none, whichever fits first. The planes are those with the most area; chords
+/// of the bend touch no cylinder.
 std::optional<UnrolledSkin> measured(const MarkedSkin& marked, const std::vector<int>& loop)
 {
     std::vector<int> ring;
@@ -123,8 +124,8 @@ bool inside(const std::vector<Eigen::Vector2d>& at, const Polygon& polygon, cons
     return inside_polygon(corner, p);
 }
 
-/// Cuts a polygon along the line u = `seam`, from corner to corner; where its edges cross the line they have corners, as edges of a CAD
-/// file do.
+/// Cuts a polygon along the line u = `seam`, from corner to corner; where its edges cross the line
+/// they have corners, as edges of a CAD file do.
 std::vector<Polygon> cut_along(const std::vector<Eigen::Vector2d>& at, const Polygon& whole, double seam, double on)
 {
     Polygon along;
@@ -156,12 +157,14 @@ std::vector<Polygon> cut_along(const std::vector<Eigen::Vector2d>& at, const Pol
     return pieces;
 }
 
-/// Triangles of a polygon in the unrolled skin. Three corners in a row across a bend are no triangle there, but stand upright in space: so
-/// edges are turned until each triangle has the corners next to it (Delaunay), then halved where they turn by more than 3 degrees and than
-/// any edge of the polygon. Those stay, and so do the lines where planes touch the cylinder.
+/// Triangles of a polygon in the unrolled skin. Three corners in a row across a bend are no
+/// triangle there, but stand upright in space: so edges are turned until each triangle has the
+/// corners next to it (Delaunay), then halved where they turn by more than 3 degrees and than any
+/// edge of the polygon. Those stay, and so do the lines where planes touch the cylinder.
 class Refinement {
 public:
-    /// @param at  first the corners of the polygon, around it @param on  mm, within which a corner is on a seam
+    /// @param at  first the corners of the polygon, around it @param on mm, within which a corner
+    /// is on a seam
     Refinement(const UnrolledSkin& skin, std::vector<Eigen::Vector2d>& at, std::vector<Triangle>& triangle, double on)
         : skin_(skin), at_(at), triangle_(triangle), on_(on)
     {
@@ -264,7 +267,8 @@ private:
     }
 };
 
-/// Per zone of the unrolled skin the first triangle beside the mark; the first of all where there is none.
+/// Per zone of the unrolled skin the first triangle beside the mark; the first of all where there
+/// is none.
 std::array<int, 3> sources(const UnrolledSkin& skin, const MarkedSkin& marked, std::vector<int> beside)
 {
     std::sort(beside.begin(), beside.end());

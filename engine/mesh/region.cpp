@@ -12,7 +12,8 @@
 namespace spia {
 namespace {
 
-constexpr double uneven = 0.1; ///< evenness() of the last faces before a bend is below; inside of one rarely
+constexpr double uneven = 0.1; ///< evenness() of the last faces before a bend is below; inside of
+                               ///< one rarely
 
 std::vector<char> flags(const FaceSet& set, int faces)
 {
@@ -37,9 +38,9 @@ Eigen::Vector3d middle(const TriMesh& mesh, int face)
     return (mesh.position.col(t[0]) + mesh.position.col(t[1]) + mesh.position.col(t[2])) / 3;
 }
 
-/// How evenly a face lies in the curvature around it, 0 to 1: the least over the largest angle between its normal and those
-/// of its vertices. Near 0 for the last face of a flat piece before a bend: the vertices on the bend line are turned, the
-/// third is not. Near 1 within the bend.
+/// How evenly a face lies in the curvature around it, 0 to 1: the least over the largest angle
+/// between its normal and those of its vertices. Near 0 for the last face of a flat piece before a
+/// bend: the vertices on the bend line are turned, the third is not. Near 1 within the bend.
 double evenness(const TriMesh& mesh, const Eigen::Matrix3Xd& vertex_normal, const Eigen::Vector3d& area_vector,
                 int face)
 {
@@ -51,14 +52,16 @@ double evenness(const TriMesh& mesh, const Eigen::Matrix3Xd& vertex_normal, cons
     return turned.maxCoeff() > 0 ? turned.minCoeff() / turned.maxCoeff() : 1;
 }
 
-/// The larger principal curvature of a face, from how the vertex normals turn along its edges [Rusinkiewicz 2004].
+/// The larger principal curvature of a face, from how the vertex normals turn along its edges
+/// [Rusinkiewicz 2004].
 double curvature(const TriMesh& mesh, const Eigen::Matrix3Xd& vertex_normal, const Eigen::Vector3d& area_vector,
                  int face)
 {
     const auto t = mesh.triangle.col(face);
     const Eigen::Vector3d normal = area_vector.normalized();
     const Eigen::Vector3d x = (mesh.position.col(t[1]) - mesh.position.col(t[0])).normalized(), y = normal.cross(x);
-    // Least squares for the symmetric (e, f, g) that takes each edge to the change of the normal along it.
+    // Least squares for the symmetric (e, f, g) that takes each edge to the change of the normal
+    // along it.
     Eigen::Matrix<double, 6, 3> A;
     Eigen::Matrix<double, 6, 1> b;
     for (int k = 0; k < 3; ++k) {

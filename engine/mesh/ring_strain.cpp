@@ -57,7 +57,8 @@ RingStrain ring_strain(FrontMarch& march, const std::vector<int>& loop, const st
         return result;
     const auto length = level_lengths(march);
     result.widest = *std::max_element(length.begin(), length.end());
-    // Near the hole the line has its waves, near the next loop it is torn: neither says anything of the ring.
+    // Near the hole the line has its waves, near the next loop it is torn: neither says anything of
+    // the ring.
     constexpr int first = 1, last = levels - 2;
     std::vector<double> turn, size; // integral of ds / l, logarithm of l
     double sum = 0;
@@ -82,7 +83,8 @@ RingStrain ring_strain(FrontMarch& march, const std::vector<int>& loop, const st
         return high - low;
     };
     constexpr double full = 2 * std::numbers::pi;
-    result.ring = std::min(spread(full), spread(-full)); // the hole may be the outer edge of the blank
+    result.ring = std::min(spread(full), spread(-full)); // the hole may be the outer edge of the
+                                                         // blank
     result.fan = result.ring;
     constexpr int fans = 64;
     for (int i = -fans; i <= fans; ++i)

@@ -42,7 +42,8 @@ private:
     }
 };
 
-/// The place of both that is next to a given one, by the shortest steps; none where they meet at less than 12 degrees, or farther away.
+/// The place of both that is next to a given one, by the shortest steps; none where they meet at
+/// less than 12 degrees, or farther away.
 std::optional<Eigen::Vector3d> onto_both(const Level& a, const Level& b, const Eigen::Vector3d& from, double within)
 {
     constexpr int most_steps = 20;
@@ -64,7 +65,8 @@ std::optional<Eigen::Vector3d> onto_both(const Level& a, const Level& b, const E
     return std::nullopt;
 }
 
-using Added = std::array<std::vector<int>, 3>; ///< per edge of a triangle: vertices between its ends, in this order
+using Added = std::array<std::vector<int>, 3>; ///< per edge of a triangle: vertices between its
+                                               ///< ends, in this order
 
 /// Fans over a triangle with vertices along its edges.
 void divide(int a, int b, int c, Added between, std::vector<Eigen::Vector3i>& into)
@@ -171,7 +173,8 @@ private:
     TriMesh& outer_;
     double half_;
     const std::vector<StatedSurface>& surface_;
-    std::map<std::pair<int, int>, int> rim_; ///< per edge of the outer skin, vertices of the solid: the triangle across
+    std::map<std::pair<int, int>, int> rim_; ///< per edge of the outer skin, vertices of the solid:
+                                             ///< the triangle across
     Eigen::Matrix3Xd facing_;
     std::vector<Eigen::Vector3d> new_outer_, new_middle_;
     std::vector<int> new_source_;
@@ -208,7 +211,8 @@ private:
     }
     Level rim_level(int rim) const { return {surface_[size_t(rim)], surface_[size_t(rim)].radius}; }
 
-    /// Of the outer skin and of the middle surface at a vertex; none where it is not on what CAD states.
+    /// Of the outer skin and of the middle surface at a vertex; none where it is not on what CAD
+    /// states.
     std::optional<std::pair<Level, Level>> levels(int f, int v) const
     {
         const StatedSurface& s = under(f);
@@ -248,7 +252,8 @@ private:
         return upright(f, outer) && upright(f, middle);
     }
 
-    /// How far the border turns along the chord, radians: around the cylinder that cuts it, and itself.
+    /// How far the border turns along the chord, radians: around the cylinder that cuts it, and
+    /// itself.
     double turn(const Level& rim, const Level& middle, const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
     {
         const auto angle = [](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
@@ -298,7 +303,8 @@ private:
         return result;
     }
 
-    /// Sorts the vertices by their numbers of the solid: new ones come after those that they are called by.
+    /// Sorts the vertices by their numbers of the solid: new ones come after those that they are
+    /// called by.
     void take(const std::vector<Eigen::Vector3i>& triangle, std::vector<int> source_face)
     {
         std::vector<int> source = middle_.source_vertex;

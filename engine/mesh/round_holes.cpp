@@ -12,9 +12,11 @@
 namespace spia {
 namespace {
 
-constexpr double same = 1e-3; // of the thickness: single precision of STL files is that of usual ones at most
+constexpr double same = 1e-3; // of the thickness: single precision of STL files is that of usual
+                              // ones at most
 constexpr double through = 0.9,
-                 beyond = 1.1; // of the thickness: planes lie as far apart as it says, but for chords of bends
+                 beyond = 1.1; // of the thickness: planes lie as far apart as it says, but for
+                               // chords of bends
 
 constexpr double along_axis = 1 - 1e-5; // 0.3 degrees
 
@@ -114,7 +116,8 @@ private:
         });
     }
 
-    /// Whether a triangle may be a chord of a surface of revolution about the axis, seen from the axis.
+    /// Whether a triangle may be a chord of a surface of revolution about the axis, seen from the
+    /// axis.
     bool revolved(int f, const RoundEdge& mouth) const
     {
         constexpr double chord = 0.3; // half of one of 35 degrees, which circles have at most
@@ -128,14 +131,17 @@ private:
         return n.dot(out) < 5e-3 + rounding && std::abs(n.dot(mouth.axis.cross(out))) < chord + rounding;
     }
 
-    /// Whether a triangle of the wall goes on beyond its edge from corner k on: smoothly, or with a kink, which is along a circle. Over the hollow
-    /// side of a bend a countersink is cut on beyond the plane of the skin: there at one angle with the axis, for the bend's skin is none of it.
+    /// Whether a triangle of the wall goes on beyond its edge from corner k on: smoothly, or with a
+    /// kink, which is along a circle. Over the hollow side of a bend a countersink is cut on beyond
+    /// the plane of the skin: there at one angle with the axis, for the bend's skin is none of it.
     /// @param own  the triangle's normal, or of a sliver that of the last one before it
     bool goes_on(int f, int k, const Eigen::Vector3d& own, const RoundEdge& mouth) const
     {
-        constexpr double smooth = 0.966;  // the cosine of 15 degrees: chords of 0.2 radians turn by less
+        constexpr double smooth = 0.966;  // the cosine of 15 degrees: chords of 0.2 radians turn by
+                                          // less
         constexpr double flattest = 0.95; // of a cone of 143 degrees
-        constexpr double farthest = 2;    // of the thickness: necks and drawn walls go on like that as well
+        constexpr double farthest = 2;    // of the thickness: necks and drawn walls go on like that
+                                          // as well
         const int next = neighbour_(k, f);
         double low = 0;
         for (const int v : solid_.triangle.col(next)) {
@@ -160,7 +166,8 @@ private:
         return n.dot(own) > smooth && std::abs((n - own).dot(mouth.axis)) < same_angle;
     }
 
-    /// How far chords between circles may be off the angle of their cone: by the height of their arcs over them, as a cosine.
+    /// How far chords between circles may be off the angle of their cone: by the height of their
+    /// arcs over them, as a cosine.
     double unevenness(int f, const RoundEdge& mouth) const
     {
         constexpr double rounding = 0.03;
@@ -173,7 +180,8 @@ private:
         return rounding + chord * chord / (8 * out.norm() * std::max(altitude(f), same_));
     }
 
-    /// How far below a mouth the plane of the other skin is, mm: of several, with marks in it, the farthest; 0: there is none.
+    /// How far below a mouth the plane of the other skin is, mm: of several, with marks in it, the
+    /// farthest; 0: there is none.
     double depth_below(const RoundEdge& mouth) const
     {
         double most = 0;

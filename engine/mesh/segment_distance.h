@@ -8,7 +8,8 @@ namespace spia {
 
 struct BoxTree;
 
-/// Distances of many places of the plane from the same segments; the search structure is built once.
+/// Distances of many places of the plane from the same segments; the search structure is built
+/// once.
 class SegmentDistance {
 public:
     /// @param position 2 by #points, finite, mm
@@ -16,7 +17,8 @@ public:
     SegmentDistance(const Eigen::Matrix2Xd& position, const std::vector<std::array<int, 2>>& segments);
     ~SegmentDistance();
 
-    /// mm, to the nearest segment; infinite if there is none. The least of what is computed for each segment, to the last bit.
+    /// mm, to the nearest segment; infinite if there is none. The least of what is computed for
+    /// each segment, to the last bit.
     double operator()(const Eigen::Vector2d& place) const;
 
 private:

@@ -13,7 +13,8 @@
 namespace spia {
 namespace {
 
-constexpr double block = 0.36;  // of that with half of the area: a square plate half as thick as it is wide
+constexpr double block = 0.36;  // of that with half of the area: a square plate half as thick as it
+                                // is wide
 constexpr double speck = 0.005; // of the surface: what is smaller is no piece of a side
 
 /// Of pieces that stand off their side: "; they reach ... ", and what would be let pass.
@@ -30,8 +31,8 @@ std::string how_deep(const SolidInPieces& solid, PieceSide side, double thicknes
                      : "";
 }
 
-/// Of a mesh slivers along an arc stand upright on their skin, where they have no area to speak of: what has no vertex of its own between
-/// those of one skin is part of it.
+/// Of a mesh slivers along an arc stand upright on their skin, where they have no area to speak of:
+/// what has no vertex of its own between those of one skin is part of it.
 void give_slivers_to_their_skin(SolidInPieces& solid)
 {
     const SurfacePieces& pieces = solid.pieces;
@@ -80,7 +81,8 @@ Groups groups_of_a_side(const SolidInPieces& solid)
     return groups;
 }
 
-/// What is not connected to the largest piece of a side becomes rim, unless it is too large for that.
+/// What is not connected to the largest piece of a side becomes rim, unless it is too large for
+/// that.
 /// @param surely  the rest is sheet, were it not for this
 void require_in_one_piece(SolidInPieces& solid, PieceSide side, double thickness, double area, bool surely)
 {
@@ -108,8 +110,8 @@ void require_in_one_piece(SolidInPieces& solid, PieceSide side, double thickness
             solid.sides.side[size_t(p)] = PieceSide::rim;
 }
 
-/// Of the faces across the thickness those that one side alone has are a step, a pocket or a boss: with its floor, which was
-/// taken from its side before.
+/// Of the faces across the thickness those that one side alone has are a step, a pocket or a boss:
+/// with its floor, which was taken from its side before.
 void require_through(const SolidInPieces& solid, double thickness, bool surely)
 {
     Groups groups = groups_of_a_side(solid);
@@ -192,7 +194,8 @@ void require_two_sides(const SolidInPieces& solid, double thickness, double area
 
 void require_connected(SolidInPieces& solid, double thickness, double area)
 {
-    constexpr double plate = 0.15; // of the width: beyond that a plain one may be a closed box (sheet_or_hollow())
+    constexpr double plate = 0.15; // of the width: beyond that a plain one may be a closed box
+                                   // (sheet_or_hollow())
     const bool surely = thickness < plate * std::sqrt(area / 2);
     for (const PieceSide side : {PieceSide::one, PieceSide::other})
         require_in_one_piece(solid, side, thickness, area, surely);
@@ -214,7 +217,8 @@ void require_no_thin_floor(const SolidInPieces& solid, double thickness, double 
                  solid.largest(of_it));
 }
 
-/// With faces missing, most of the outline of the skins must still be where faces cross the thickness.
+/// With faces missing, most of the outline of the skins must still be where faces cross the
+/// thickness.
 void require_rim(const SolidInPieces& solid)
 {
     double rim = 0, open = 0;
@@ -237,7 +241,8 @@ void require_rim(const SolidInPieces& solid)
 /// Coined or thickened places.
 void require_even(const SolidInPieces& solid, const std::vector<LocalThickness>& local, double thickness)
 {
-    constexpr double thin = 0.75, fat = 1.5; // a bend with the same radius on both sides is 1.41 times as thick
+    constexpr double thin = 0.75, fat = 1.5; // a bend with the same radius on both sides is 1.41
+                                             // times as thick
     constexpr double most_share = 0.02;
     std::map<int, std::vector<std::pair<double, double>>> of_piece;
     for (const LocalThickness& at : local)

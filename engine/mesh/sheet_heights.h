@@ -7,12 +7,14 @@
 
 namespace spia {
 
-constexpr double chords_off_bends = 0.005; // of the thickness: what triangles of bends are off their surface, about
+constexpr double chords_off_bends = 0.005; // of the thickness: what triangles of bends are off
+                                           // their surface, about
 
 /// How far vertices of a solid are off its other skin: asked for few of them, and for some twice.
 class SheetHeights {
 public:
-    /// @param other_skin  tells of a triangle whether it is one of that; @param within mm, farther is not looked
+    /// @param other_skin  tells of a triangle whether it is one of that; @param within mm, farther
+    /// is not looked
     template <class Counts>
     SheetHeights(const TriMesh& mesh, const Counts& other_skin, double within)
         : position_(mesh.position), search_(part_of(mesh, other_skin)), within_(within),

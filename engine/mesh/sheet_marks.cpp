@@ -64,8 +64,9 @@ std::vector<char> candidates(const SurfacePieces& pieces, const std::vector<Piec
     return result;
 }
 
-/// Takes floors of marks from the main part of their skin that hang together with it smoothly where they run out, into a bend say: they are off
-/// its level elsewhere, and meet walls that do not reach the other skin.
+/// Takes floors of marks from the main part of their skin that hang together with it smoothly where
+/// they run out, into a bend say: they are off its level elsewhere, and meet walls that do not
+/// reach the other skin.
 void take_out_floors(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const SurfacePieces& pieces,
                      const std::vector<PieceSide>& side, double thickness, std::vector<char>& main)
 {
@@ -96,7 +97,8 @@ void take_out_floors(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const 
                 most[size_t(piece(f))] = std::max(most[size_t(piece(f))], std::abs(above));
                 sum[size_t(piece(f))] += above * normal.col(f).norm() / 3;
             }
-        constexpr double off = 4 * chords_off_bends, half = 0.5; // of the thickness on average; of the skin's area
+        // of the thickness on average; of the skin's area
+        constexpr double off = 4 * chords_off_bends, half = 0.5;
         for (int p = 0; p < pieces.count(); ++p)
             if (of_skin(p) && perhaps[size_t(p)] && pieces.area[size_t(p)] < half * whole &&
                 most[size_t(p)] <= (deepest_mark + chords_off_bends) * thickness &&
@@ -111,7 +113,8 @@ struct SkinAt {
     Eigen::VectorXd size;    ///< mm2, sum of their lengths
 
     bool has(int v) const { return size[v] > 0; }
-    bool plane(int v) const { return normal.col(v).norm() > (1 - 1e-6) * size[v]; } // but for 0.1 degrees
+    // but for 0.1 degrees
+    bool plane(int v) const { return normal.col(v).norm() > (1 - 1e-6) * size[v]; }
 };
 
 template <class OnSkin>
@@ -126,13 +129,15 @@ SkinAt skin_at_vertices(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, con
     return result;
 }
 
-/// The most at the feet of its walls: of the steepest way up to the skin from there its height; on a bend, whose chords' normals are off,
-/// its length if it goes straight up. Else how far the foot is off the other skin.
+/// The most at the feet of its walls: of the steepest way up to the skin from there its height; on
+/// a bend, whose chords' normals are off, its length if it goes straight up. Else how far the foot
+/// is off the other skin.
 double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& skin, SheetHeights& height,
                      double thickness)
 {
     constexpr double straight =
-        0.94; // cosine: the skin's normals at the edge of a mark on a bend are off by half a chord, 10 degrees
+        0.94; // cosine: the skin's normals at the edge of a mark on a bend are off by half a chord,
+              // 10 degrees
     struct Way {
         double cosine = 0, length = 0;
         bool plane = false;
@@ -192,7 +197,8 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
             together.join(c.a, c.b);
     struct Group {
         double along_skin = 0, along_rim = 0, smoothly = 0; ///< mm; the last one of the first
-        bool floor = false, off = false; ///< off: some vertex is not one of the skin, and can be moved to it
+        /// off: some vertex is not one of the skin, and can be moved to it
+        bool floor = false, off = false;
     };
     std::map<int, Group> groups;
     for (int p = 0; p < pieces.count(); ++p)

@@ -14,10 +14,13 @@ namespace {
 constexpr double sure = 0.8; // of a piece's area lies opposite to another: it belongs to a skin
 constexpr double likely = 0.5;
 constexpr double least_facing = 0.72;                       // 44 degrees: not chamfers
-constexpr double steepest = 0.5;                            // 60 degrees: a countersink, if it is askew all over
+constexpr double steepest = 0.5;                            // 60 degrees: a countersink, if it is
+                                                            // askew all over
 constexpr double least_distance = 0.6, most_distance = 1.7; // of the thickness
-constexpr double parallel = 0.94;      // 20 degrees: chords of one bend on both sides are askew by less
-constexpr double mostly_sloped = 0.75; // of a piece; of sharp bends' outer sides a half
+constexpr double parallel = 0.94;                           // 20 degrees: chords of one bend on
+                                                            // both sides are askew by less
+constexpr double mostly_sloped = 0.75;                      // of a piece; of sharp bends' outer
+                                                            // sides a half
 
 /// Two pieces that are on the same skin or on different ones.
 struct Relation {
@@ -69,9 +72,11 @@ std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vect
             const auto p = size_t(pieces.piece[size_t(at.face)]);
             share[p] += at.area / pieces.area[p];
         }
-    // Low walls around raised marks lie opposite to each other, too; strips of bends go on smoothly at their sides.
-    // Of a wall along a curve each chord may be a piece, not longer than it is high: its sharp edges alone tell its height.
-    constexpr double low = 0.25; // of the thickness, for twice the area over the outline: the height of a wall
+    // Low walls around raised marks lie opposite to each other, too; strips of bends go on smoothly
+    // at their sides. Of a wall along a curve each chord may be a piece, not longer than it is
+    // high: its sharp edges alone tell its height.
+    constexpr double low = 0.25; // of the thickness, for twice the area over the outline: the
+                                 // height of a wall
     std::vector<double> around(size_t(pieces.count()), 0), smooth(size_t(pieces.count()), 0);
     for (const PieceContact& c : pieces.contact)
         for (const int p : {c.a, c.b}) {
@@ -87,7 +92,8 @@ std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vect
     return share;
 }
 
-/// Of each piece the share of its area that lies askew to the other side, as of countersinks and wide chamfers.
+/// Of each piece the share of its area that lies askew to the other side, as of countersinks and
+/// wide chamfers.
 /// @param least  the cosine of the steepest slope
 std::vector<double> sloped_shares(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness,
                                   double least)
@@ -101,11 +107,12 @@ std::vector<double> sloped_shares(const SurfacePieces& pieces, const std::vector
     return share;
 }
 
-/// The outer sides of sharp bends are askew to the inner ones as well; but they go on smoothly at most of their outline, whereas a
-/// countersink ends at its hole.
+/// The outer sides of sharp bends are askew to the inner ones as well; but they go on smoothly at
+/// most of their outline, whereas a countersink ends at its hole.
 void keep_bends(const SurfacePieces& pieces, std::vector<double>& sloped)
 {
-    constexpr double ends = 0.25;         // of what goes on smoothly; of a hole half as wide as its countersink 0.5
+    constexpr double ends = 0.25;         // of what goes on smoothly; of a hole half as wide as its
+                                          // countersink 0.5
     DisjointSets together(sloped.size()); // a countersink may be in several pieces
     const auto steep = [&](int p) { return sloped[size_t(p)] > mostly_sloped; };
     for (const PieceContact& c : pieces.contact)
@@ -153,7 +160,8 @@ std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<O
     return result;
 }
 
-using Side = std::vector<int>; // per piece: 0 one, 1 other, -1 not known, `none` that of the faces across the thickness
+using Side = std::vector<int>; // per piece: 0 one, 1 other, -1 not known, `none` that of the faces
+                               // across the thickness
 constexpr int none = -2;
 
 /// The largest group of pieces that relations join.
@@ -174,7 +182,8 @@ Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relati
     return side;
 }
 
-/// Pieces that are not sure, in groups across which the surface goes on smoothly: settled by what a group touches.
+/// Pieces that are not sure, in groups across which the surface goes on smoothly: settled by what a
+/// group touches.
 /// @returns whether one was
 bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share, const std::vector<double>& sloped,
                    Side& side)
@@ -223,9 +232,10 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
     return settled;
 }
 
-/// Pieces that are not sure, by what looks at them from behind: the outer faces of thick sheet lie opposite to the inner ones with the part
-/// that is not in a corner only, those of a thick tube with the share of the inner radius in the outer one. What touches the side that looks at
-/// it is none.
+/// Pieces that are not sure, by what looks at them from behind: the outer faces of thick sheet lie
+/// opposite to the inner ones with the part that is not in a corner only, those of a thick tube
+/// with the share of the inner radius in the outer one. What touches the side that looks at it is
+/// none.
 /// @returns whether one was
 bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, const std::vector<double>& sloped,
                   double thickness, Side& side)
@@ -268,7 +278,8 @@ SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>&
     result.opposite_area = opposite_shares(pieces, places, thickness);
     std::vector<double> sloped = sloped_shares(pieces, places, thickness, least_facing);
     keep_bends(pieces, sloped);
-    // Chords of a countersink of 90 degrees are on both sides of that: the bit of it that faces the other side says nothing.
+    // Chords of a countersink of 90 degrees are on both sides of that: the bit of it that faces the
+    // other side says nothing.
     std::vector<double> steep = sloped_shares(pieces, places, thickness, steepest);
     keep_bends(pieces, steep);
     for (size_t p = 0; p < sloped.size(); ++p)

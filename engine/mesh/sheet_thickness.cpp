@@ -29,8 +29,8 @@ TriMesh only(const SolidInPieces& solid, PieceSide side)
     return {solid.mesh.position, solid.mesh.triangle(Eigen::all, faces_of(solid, side))};
 }
 
-/// The least that an eighth of the distances are, to single precision of a part a hundred times as large: vertices that do not lie quite opposite
-/// are farther away. @param sorted  at least one
+/// The least that an eighth of the distances are, to single precision of a part a hundred times as
+/// large: vertices that do not lie quite opposite are farther away. @param sorted at least one
 std::optional<double> agreed(const std::vector<double>& sorted)
 {
     constexpr double equal = 1 + 1e-5;
@@ -43,7 +43,8 @@ std::optional<double> agreed(const std::vector<double>& sorted)
     return std::nullopt;
 }
 
-/// Vertices at which a skin turns: they lie on its surface, while those within a chord of a bend lie below it.
+/// Vertices at which a skin turns: they lie on its surface, while those within a chord of a bend
+/// lie below it.
 std::vector<char> turning_vertices(const SolidInPieces& solid)
 {
     constexpr double turn = 0.99985; // 1 degree
@@ -60,7 +61,8 @@ std::vector<char> turning_vertices(const SolidInPieces& solid)
     return turns;
 }
 
-/// Vertices at which the border of a skin turns, as at both ends of a free edge; where a section is cut into chords it does not.
+/// Vertices at which the border of a skin turns, as at both ends of a free edge; where a section is
+/// cut into chords it does not.
 std::vector<char> border_corners(const SolidInPieces& solid)
 {
     constexpr double turn = 0.5; // the sine of 30 degrees
@@ -91,7 +93,8 @@ double between_vertices(const SolidInPieces& solid, double by_rays, const std::v
             for (const int f : *faces)
                 marked[size_t(f)] = 1;
     constexpr double exact = 1e-4, alike = 1e-3;
-    constexpr double nearer = 0.02, farther = 0.1; // chords of 50 degrees are nearer to each other by that
+    constexpr double nearer = 0.02, farther = 0.1; // chords of 50 degrees are nearer to each other
+                                                   // by that
     std::vector<double> distance, turning, ends;
     const std::vector<char> turns = turning_vertices(solid), corners = border_corners(solid);
     int asked = 0;

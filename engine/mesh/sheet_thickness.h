@@ -6,9 +6,11 @@
 
 namespace spia {
 
-/// The thickness between curved skins. Rays meet chords there, not the surfaces; vertices lie on them, so the thickness is
-/// the distance of vertices that lie straight opposite to each other: of those where the skins turn, if there are enough. Of flats that
-/// are folded without a radius those lie on the mitre, farther apart than the flats are: there rays are right, as the ends of free edges say.
+/// The thickness between curved skins. Rays meet chords there, not the surfaces; vertices lie on
+/// them, so the thickness is the distance of vertices that lie straight opposite to each other: of
+/// those where the skins turn, if there are enough. Of flats that are folded without a radius those
+/// lie on the mitre, farther apart than the flats are: there rays are right, as the ends of free
+/// edges say.
 /// @param by_rays mm, and what is returned where too few vertices lie so
 /// @param marks  do not count
 double between_vertices(const SolidInPieces&, double by_rays, const std::vector<SheetMark>& marks);

@@ -68,8 +68,9 @@ public:
         normal_.push_back(normal);
         move_.push_back(move);
     }
-    /// The shortest move that obeys them, as well as that can be. @param first  the first of them exactly, the others within it: a wall that is
-    /// nearly parallel to the sheet would else take a vertex out of it
+    /// The shortest move that obeys them, as well as that can be. @param first the first of them
+    /// exactly, the others within it: a wall that is nearly parallel to the sheet would else take a
+    /// vertex out of it
     Eigen::Vector3d move(bool first) const
     {
         const Eigen::Vector3d n = first ? normal_[0] : Eigen::Vector3d::Zero(), start = n * move_[0];
@@ -106,7 +107,8 @@ struct MiddleSurface {
     TriMesh rim;                                   ///< the faces across the thickness
     std::optional<ClosestPointSearch> nearest_rim; ///< none: there are none
 
-    /// Where a vertex of the outer skin goes. @param to_rim  at the rim along its faces; else as if there were none
+    /// Where a vertex of the outer skin goes. @param to_rim at the rim along its faces; else as if
+    /// there were none
     Eigen::Vector3d move(int v, bool to_rim = true) const
     {
         std::vector<int> skin, others;
@@ -115,7 +117,8 @@ struct MiddleSurface {
         const auto larger = [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; };
         std::sort(skin.begin(), skin.end(), larger);
         std::sort(others.begin(), others.end(), larger);
-        // Of the surfaces at the vertex itself where they are known: triangles of a bend are its chords.
+        // Of the surfaces at the vertex itself where they are known: triangles of a bend are its
+        // chords.
         const auto normal_of = [&](int f) {
             const Eigen::Vector3d own = normal.col(f);
             if (!options.surface.empty() && options.surface[size_t(f)].kind != StatedSurface::Kind::other)
@@ -132,7 +135,8 @@ struct MiddleSurface {
             });
         };
         const Eigen::Vector3d first = normal_of(farthest_from(mean));
-        // Above 50 degrees it is an edge, above 40 degrees an edge or a coarse bend, where the inner skin may tell.
+        // Above 50 degrees it is an edge, above 40 degrees an edge or a coarse bend, where the
+        // inner skin may tell.
         constexpr double edge = 0.643, smooth = 0.766;
         const Eigen::Vector3d second = normal_of(farthest_from(first));
         const double turn = first.dot(second);
@@ -146,7 +150,8 @@ struct MiddleSurface {
                 planes.add(normal_of(f), -half);
         else
             planes.add(told ? told->outwards : mean, told ? -told->distance / 2 : -half);
-        constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it gives no direction
+        constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it
+                                        // gives no direction
         bool at_rim = false;
         for (const int f : others)
             if (to_rim && sheet.side[size_t(f)] == SheetSide::rim && std::abs(normal.col(f).dot(mean)) < slanted) {
@@ -161,9 +166,11 @@ struct MiddleSurface {
         return (at_rim || sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
     }
 
-    /// A chamfer ends before the middle of the sheet; the edge of that is at the wall, or where the walls meet, between those of both skins.
+    /// A chamfer ends before the middle of the sheet; the edge of that is at the wall, or where the
+    /// walls meet, between those of both skins.
     /// @param others  faces at the vertex that are not of the outer skin
-    /// @returns the way there; nothing if the way along the faces at the vertex ends on the rim, or no wall is square to the sheet
+    /// @returns the way there; nothing if the way along the faces at the vertex ends on the rim, or
+    /// no wall is square to the sheet
     std::optional<Eigen::Vector3d> beyond_chamfer(int v, const Eigen::Vector3d& moved, const Eigen::Vector3d& mean,
                                                   const std::vector<int>& others) const
     {
@@ -184,7 +191,8 @@ struct MiddleSurface {
                 return std::nullopt;
             const auto corner = [&](int k) { return Eigen::Vector3d(rim.position.col(rim.triangle(k, wall.face))); };
             const Eigen::Vector3d across = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-            constexpr double square = 0.05; // of the cosine; elsewhere the way along the faces is right
+            constexpr double square = 0.05; // of the cosine; elsewhere the way along the faces is
+                                            // right
             if (std::abs(across.dot(mean)) > square)
                 return std::nullopt;
             planes.add(across, across.dot(wall.position - here));
@@ -198,8 +206,9 @@ struct MiddleSurface {
         double distance;          ///< mm
     };
 
-    /// Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not. Flats that are folded
-    /// without a radius are mitred: their corners are farther apart.
+    /// Where the inner skin is the thickness away at its nearest place or a vertex there, that is
+    /// where it is not. Flats that are folded without a radius are mitred: their corners are
+    /// farther apart.
     /// @param first, second  normals of the faces at the vertex that turn most from each other
     std::optional<Opposite> from_inner(int v, const Eigen::Vector3d& mean, const Eigen::Vector3d& first,
                                        const Eigen::Vector3d& second) const

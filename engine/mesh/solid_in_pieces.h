@@ -10,8 +10,8 @@
 
 namespace spia {
 
-/// A solid while its two sides are looked for: thin_solid() fills it, sheet_conditions.h says why it is no
-/// sheet, sheet_thickness.h measures it.
+/// A solid while its two sides are looked for: thin_solid() fills it, sheet_conditions.h says why
+/// it is no sheet, sheet_thickness.h measures it.
 struct SolidInPieces {
     const TriMesh& mesh;
     const ThinSolidOptions& options;

@@ -49,9 +49,11 @@ double quality(const Vector2d& a, const Vector2d& b, const Vector2d& c)
     return edge[1] > 0 ? doubled_area(a, b, c) / (edge[1] * edge[2]) : 0;
 }
 
-constexpr double flat = 1e-9; // sine of an angle that counts as zero; far above rounding, far below a usable triangle
+constexpr double flat = 1e-9; // sine of an angle that counts as zero; far above rounding, far below
+                              // a usable triangle
 
-constexpr double needle = 0.0175; // of 1 degree: below it the doctor warns (DoctorOptions::sliver_angle_deg)
+constexpr double needle = 0.0175; // of 1 degree: below it the doctor warns
+                                  // (DoctorOptions::sliver_angle_deg)
 
 Triangles split_quad(std::span<const Vector3d> corners, const std::vector<Vector2d>& p)
 {
@@ -69,7 +71,8 @@ Triangles split_quad(std::span<const Vector3d> corners, const std::vector<Vector
     return {};
 }
 
-/// Quality of the ear whose tip is corner i of the rest, or at most `flat` if it may not be cut off.
+/// Quality of the ear whose tip is corner i of the rest, or at most `flat` if it may not be cut
+/// off.
 double ear_quality(const std::vector<Vector2d>& p, const std::vector<int>& rest, size_t i)
 {
     const size_t n = rest.size();
@@ -108,8 +111,8 @@ Triangles clip_ears(const std::vector<Vector2d>& p)
         value.erase(value.begin() + long(i));
         for (const size_t j : {(i + n - 2) % (n - 1), i % (n - 1)})
             value[j] = ear_quality(p, rest, j);
-        // A corner stops blocking others only when it is cut off, and then only ears near it: look again at
-        // those at 0.
+        // A corner stops blocking others only when it is cut off, and then only ears near it: look
+        // again at those at 0.
         for (size_t j = 0; j < rest.size(); ++j)
             if (value[j] == 0)
                 value[j] = ear_quality(p, rest, j);
@@ -120,8 +123,9 @@ Triangles clip_ears(const std::vector<Vector2d>& p)
     return triangles;
 }
 
-/// Of all ways to divide a polygon that does not cross itself, the one whose least angle is largest (G. Klincsek, Minimal triangulations of
-/// polygonal domains, 1980). Triangles none of which is turned over do not overlap then.
+/// Of all ways to divide a polygon that does not cross itself, the one whose least angle is largest
+/// (G. Klincsek, Minimal triangulations of polygonal domains, 1980). Triangles none of which is
+/// turned over do not overlap then.
 Triangles best_triangles(const std::vector<Vector2d>& p)
 {
     const size_t n = p.size();
@@ -180,7 +184,8 @@ std::vector<std::array<int, 3>> split_polygon(std::span<const Eigen::Vector3d> c
     if (n == 4)
         return split_quad(corners, plane);
     const Triangles ears = clip_ears(plane); // none if it crosses itself
-    constexpr int few = 32;                  // corners; the work grows with their third power, here to 0.1 ms
+    constexpr int few = 32;                  // corners; the work grows with their third power, here
+                                             // to 0.1 ms
     const Triangles best = !ears.empty() && n <= few ? best_triangles(plane) : Triangles{};
     return best.empty() ? ears : best;
 }

@@ -105,7 +105,8 @@ double stated_thickness(const TriMesh& solid, const ThinSolid& sheet, const std:
         }
         i = end;
     }
-    // A length that was computed from a sum of others, e.g. 2.0000000000000004: a part in a million million is its rounding.
+    // A length that was computed from a sum of others, e.g. 2.0000000000000004: a part in a million
+    // million is its rounding.
     const double digits = std::pow(10, 11 - std::floor(std::log10(best)));
     return std::round(best * digits) / digits;
 }

@@ -83,7 +83,8 @@ std::vector<Wall> walls_of(const TriMesh& solid, const ThinSolid& sheet)
     return walls;
 }
 
-/// The circle that an edge is on plane skin which lies around it, its axis outwards; none: it is another thing.
+/// The circle that an edge is on plane skin which lies around it, its axis outwards; none: it is
+/// another thing.
 std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Edge& edge,
                                         double thickness)
 {
@@ -109,7 +110,8 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
                              double thickness)
 {
     constexpr double same = 1e-3,
-                     wider = 0.02; // of the thickness; a hole that was punched is wider at one side by less
+                     wider = 0.02; // of the thickness; a hole that was punched is wider at one side
+                                   // by less
     const Edge& edge = side == SheetSide::outer ? wall.outer : wall.inner;
     const std::optional<RoundEdge> circle = circle_through(solid, normal, edge, thickness);
     if (!circle)

@@ -17,7 +17,8 @@ constexpr double radians = 3.14159265358979323846 / 180;
 /// From the largest triangle on, all that can be reached over triangles with nearly its normal.
 std::vector<int> grown_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour)
 {
-    const double most_turn = std::cos(12 * radians); // a fraction of the angle between a skin and the faces of a rim
+    const double most_turn = std::cos(12 * radians); // a fraction of the angle between a skin and
+                                                     // the faces of a rim
     const Eigen::VectorXd size = normal.colwise().norm();
     std::vector<int> order(size_t(mesh.triangles())), piece(size_t(mesh.triangles()), -1), reached;
     std::iota(order.begin(), order.end(), 0);
@@ -49,7 +50,8 @@ std::vector<int> grown_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& norma
 
 SurfacePieces surface_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const std::vector<int>& unit)
 {
-    const double sharp = std::cos(40 * radians); // bends of coarse meshes turn by less, rims by 90 degrees
+    const double sharp = std::cos(40 * radians); // bends of coarse meshes turn by less, rims by 90
+                                                 // degrees
     const std::vector<EdgeUse> uses = edge_uses(mesh.triangle);
     SurfacePieces result;
     if (unit.empty())
@@ -77,7 +79,8 @@ SurfacePieces surface_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal
         PieceContact& contact = contacts.try_emplace({a, b}, PieceContact{a, b}).first->second;
         const Eigen::Vector3d m = normal.col(one.face), n = normal.col(two.face);
         const Eigen::Vector3d along = mesh.position.col(one.high) - mesh.position.col(one.low);
-        const double turn = m.cross(n).dot(along) * (one.forward ? 1 : -1); // to the left of the first face: convex
+        // to the left of the first face: convex
+        const double turn = m.cross(n).dot(along) * (one.forward ? 1 : -1);
         double& kind = m.dot(n) >= sharp * m.norm() * n.norm() ? contact.smooth
                        : turn > 0                              ? contact.convex
                                                                : contact.concave;

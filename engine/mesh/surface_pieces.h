@@ -25,7 +25,8 @@ struct SurfacePieces {
 };
 
 /// @param normal  per triangle its area vector, outwards: 3 by #F
-/// @param unit  per triangle the number of its piece, any numbers; empty: pieces whose normals turn by less than 12 degrees from
+/// @param unit  per triangle the number of its piece, any numbers; empty: pieces whose normals turn
+/// by less than 12 degrees from
 ///              that of their largest triangle
 SurfacePieces surface_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const std::vector<int>& unit);
 

@@ -150,7 +150,8 @@ Polygons without_repeated_corners(const PolygonSoup& soup, const std::vector<int
     return kept;
 }
 
-/// The corners from the smallest on, in the direction of its smaller neighbour: equal for equal faces of either side.
+/// The corners from the smallest on, in the direction of its smaller neighbour: equal for equal
+/// faces of either side.
 std::vector<int> face_key(std::span<const int> corners)
 {
     std::vector<int> key(corners.begin(), corners.end());

@@ -14,8 +14,9 @@ struct SurfaceTriangles {
     std::vector<int> same_as; ///< per vertex of the soup the one that stands for it
 };
 
-/// Joins vertices if asked to, removes repeated corners and duplicates, and splits what has more than three
-/// corners; every change is added to the report. Expects indices in range and finite coordinates.
+/// Joins vertices if asked to, removes repeated corners and duplicates, and splits what has more
+/// than three corners; every change is added to the report. Expects indices in range and finite
+/// coordinates.
 SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report,
                                    const Progress& progress);
 

@@ -22,7 +22,8 @@ struct Behind {
 std::vector<Behind> behind(const SurfacePieces& pieces, const std::vector<Opposite>& places,
                            const std::vector<PieceSide>& side, double thickness, const std::vector<char>& known)
 {
-    constexpr double parallel = 0.94, thinner = 0.9; // 20 degrees, of chords over a bend; of the thickness
+    constexpr double parallel = 0.94, thinner = 0.9; // 20 degrees, of chords over a bend; of the
+                                                     // thickness
     std::vector<Behind> result(size_t(pieces.count()));
     for (const Opposite& at : places) {
         const auto p = size_t(pieces.piece[size_t(at.face)]);

@@ -6,7 +6,8 @@
 
 namespace spia {
 
-/// A place where sheet is thinner all over: the floor of a pocket or of a step that is so deep that it is no part of a skin.
+/// A place where sheet is thinner all over: the floor of a pocket or of a step that is so deep that
+/// it is no part of a skin.
 struct ThinFloor {
     std::vector<char> piece;         ///< per piece
     double area = 0;                 ///< mm2
@@ -14,7 +15,8 @@ struct ThinFloor {
     PieceSide skin = PieceSide::one; ///< the side that it stands off
 };
 
-/// The largest one: faces across the thickness, as it seemed, that look at a skin straight on at one distance, below the thickness.
+/// The largest one: faces across the thickness, as it seemed, that look at a skin straight on at
+/// one distance, below the thickness.
 /// @param known  per piece: others are not asked about, as walls of holes and countersinks
 std::optional<ThinFloor> thin_floor(const SurfacePieces& pieces, const std::vector<Opposite>& places,
                                     const std::vector<PieceSide>& side, double thickness,

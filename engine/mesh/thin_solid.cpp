@@ -134,7 +134,8 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     progress.checkpoint(0, "looking for pieces of surface");
     solid.pieces = surface_pieces(mesh, solid.normal, options.unit);
 
-    const double about = 2 * std::abs(volume) / area; // thickness of a closed sheet, less for its rim
+    const double about = 2 * std::abs(volume) / area; // thickness of a closed sheet, less for its
+                                                      // rim
     solid.places =
         opposites(mesh, solid.normal, std::max(3 * about, 1e-3 * bounding_diagonal(mesh)), progress.part(0.1, 0.6));
     double thickness = main_distance(solid.places, std::vector<char>(solid.places.size(), 1));

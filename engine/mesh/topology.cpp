@@ -36,7 +36,8 @@ std::vector<std::vector<int>> boundary_loops(const TriMesh& mesh)
     std::vector<std::vector<int>> loops;
     for (int start = 0; start < mesh.vertices(); ++start) {
         std::vector<int> loop;
-        for (int v = start; next[size_t(v)] >= 0;) { // each vertex is left once, so the way leads back to the start
+        for (int v = start; next[size_t(v)] >= 0;) { // each vertex is left once, so the way leads
+                                                     // back to the start
             loop.push_back(v);
             v = std::exchange(next[size_t(v)], -1);
         }

@@ -32,7 +32,8 @@ std::optional<std::array<int, 4>> touching_edge(std::span<const EdgeUse> uses, c
         if (turn < apart || uses[size_t(around[i])].forward == uses[size_t(around[next])].forward)
             return std::nullopt;
     }
-    // Seen along the edge, the inside is behind a face that has the edge forward: the face before it is the other side.
+    // Seen along the edge, the inside is behind a face that has the edge forward: the face before
+    // it is the other side.
     std::array<int, 4> pairs{};
     size_t at = 0;
     for (size_t i = 0; i < 4; ++i)

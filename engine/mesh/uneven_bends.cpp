@@ -38,8 +38,10 @@ double between_axes(const StatedSurface& a, const StatedSurface& b)
 std::vector<UnevenBend> uneven_bends(const ThinSolid& sheet, const std::vector<StatedSurface>& surface)
 {
     const double t = sheet.thickness;
-    constexpr double same = 0.02; // of the thickness: radii are rounded to hundredths of a millimetre
-    constexpr double near = 3;    // thicknesses: arcs of 90 degrees whose radii are off by two lie so far apart
+    constexpr double same = 0.02; // of the thickness: radii are rounded to hundredths of a
+                                  // millimetre
+    constexpr double near = 3;    // thicknesses: arcs of 90 degrees whose radii are off by two lie
+                                  // so far apart
     std::vector<Arc> outer = arcs_on(SheetSide::outer, sheet, surface),
                      inner = arcs_on(SheetSide::inner, sheet, surface);
     for (Arc& a : outer)

@@ -6,8 +6,8 @@
 
 namespace spia {
 
-/// A bend whose arcs on both skins have not one axis, or are not a thickness apart: the sheet is not
-/// as thick there as elsewhere.
+/// A bend whose arcs on both skins have not one axis, or are not a thickness apart: the sheet is
+/// not as thick there as elsewhere.
 struct UnevenBend {
     double outer, inner; ///< mm, radii of the arcs on the outer and on the inner skin
     int face;            ///< a triangle of the solid on the outer one

@@ -36,8 +36,8 @@ Zone on_cylinder(const MiddleOfSolid& part, const StatedSurface& on)
     return zone;
 }
 
-/// Triangles of the solid that go on evenly from the cylinder, the largest first: the narrow ones right beside it tell their plane only
-/// as well as the digits of STL do over their width.
+/// Triangles of the solid that go on evenly from the cylinder, the largest first: the narrow ones
+/// right beside it tell their plane only as well as the digits of STL do over their width.
 std::vector<int> flats_beside(const MiddleOfSolid& part, const Zone& zone, const Eigen::Matrix3Xi& beside)
 {
     const auto source = [&](int f) { return part.middle.source_face[size_t(f)]; };
@@ -106,7 +106,8 @@ bool is_hollow(const MiddleOfSolid& part, const StatedSurface& on, const Zone& z
     return normal_at(on, mean, part.normal.col(first)).dot(mean - on.point) < 0;
 }
 
-/// mm, per vertex of the middle surface that is unrolled: half a thickness straight below the outer skin.
+/// mm, per vertex of the middle surface that is unrolled: half a thickness straight below the outer
+/// skin.
 Eigen::Matrix3Xd below_skin(const MiddleOfSolid& part, const StatedSurface& on, const Zone& zone, bool hollow)
 {
     const double half = part.sheet.thickness / 2;

@@ -8,15 +8,18 @@
 
 namespace spia {
 
-/// The cylinder through places of a bend of which nothing is stated. @param normal  of its triangles, area vectors
+/// The cylinder through places of a bend of which nothing is stated. @param normal of its
+/// triangles, area vectors
 /// @returns nothing where they do not turn, or a place is farther from it than `within`, mm
 std::optional<StatedSurface> cylinder_through(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& normal,
                                               double within);
 
-/// A bend and the plane skin beside it, unrolled: a cylinder, and up to two planes that touch it. Along u it turns, v runs along the axis.
+/// A bend and the plane skin beside it, unrolled: a cylinder, and up to two planes that touch it.
+/// Along u it turns, v runs along the axis.
 class UnrolledSkin {
 public:
-    /// Of surfaces as they are stated. @returns nothing where they are others than one cylinder and planes that touch it
+    /// Of surfaces as they are stated. @returns nothing where they are others than one cylinder and
+    /// planes that touch it
     /// @param points  of what is to be unrolled @param within  mm, what places may be off
     static std::optional<UnrolledSkin> of(const std::vector<StatedSurface>& surfaces, const Eigen::Matrix3Xd& points,
                                           double within);
@@ -45,7 +48,8 @@ private:
 
     StatedSurface cylinder_;
     double within_;
-    Eigen::Vector3d x_, y_;                   ///< across the axis; angles are from x, at the middle of the places
+    Eigen::Vector3d x_, y_;                   ///< across the axis; angles are from x, at the middle
+                                              ///< of the places
     std::array<std::optional<Side>, 2> side_; ///< before the cylinder and beyond it
 };
 

@@ -4,7 +4,8 @@
 
 namespace spia {
 
-/// Of two vectors of the plane: the area of the parallelogram that they span, positive if b is to the left of a.
+/// Of two vectors of the plane: the area of the parallelogram that they span, positive if b is to
+/// the left of a.
 inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Radians between two vectors of space, 0 to pi.

@@ -45,8 +45,8 @@ std::vector<int> open_vertices(const PolygonSoup& soup, const std::vector<int>& 
     return open;
 }
 
-/// A grid of cubes of one tolerance: whatever is closer than that lies in the same cube or one of its 26
-/// neighbours.
+/// A grid of cubes of one tolerance: whatever is closer than that lies in the same cube or one of
+/// its 26 neighbours.
 class NearGrid {
 public:
     explicit NearGrid(double cell) : cell_(cell) {}
@@ -76,14 +76,15 @@ public:
 private:
     std::array<int64_t, 3> cube(const Vector3d& p) const
     {
-        const auto along =
-            [&](double x) { // where that many do not fit into a number, doubles do not tell them apart either
-                constexpr double most = 1e18;
-                return int64_t(std::clamp(std::floor(x / cell_), -most, most));
-            };
+        const auto along = [&](double x) { // where that many do not fit into a number, doubles do
+                                           // not tell them apart either
+            constexpr double most = 1e18;
+            return int64_t(std::clamp(std::floor(x / cell_), -most, most));
+        };
         return {along(p.x()), along(p.y()), along(p.z())};
     }
-    static uint64_t key(const std::array<int64_t, 3>& c) // cubes that collide only cost a comparison
+    static uint64_t key(const std::array<int64_t, 3>& c) // cubes that collide only cost a
+                                                         // comparison
     {
         return uint64_t(c[0]) * 73856093u ^ uint64_t(c[1]) * 19349663u ^ uint64_t(c[2]) * 83492791u;
     }
@@ -101,7 +102,8 @@ struct Gap {
 /// Gaps up to the tolerance, the narrowest first.
 std::vector<Gap> gaps(const std::vector<Vector3d>& position, const std::vector<int>& open, double tolerance)
 {
-    constexpr size_t most = 16; // per vertex; its nearest ones are enough to connect what lies at one place
+    constexpr size_t most = 16; // per vertex; its nearest ones are enough to connect what lies at
+                                // one place
     NearGrid grid(tolerance);
     std::vector<Gap> result, here;
     for (size_t i = 0; i < open.size(); ++i) {
@@ -212,7 +214,8 @@ std::optional<Cracks> find_cracks(const PolygonSoup& soup, const std::vector<int
         return std::nullopt;
     std::sort(open.begin(), open.end());
     std::nth_element(lengths.begin(), lengths.begin() + long(lengths.size() / 2), lengths.end());
-    constexpr double narrow = 0.02; // of an edge: a slit that was cut is wider, digits that were cut off are not
+    constexpr double narrow = 0.02; // of an edge: a slit that was cut is wider, digits that were
+                                    // cut off are not
     Cracks cracks;
     const double widest = narrow * lengths[lengths.size() / 2];
     if (!(widest > 0)) // most open edges have no length

@@ -66,12 +66,14 @@ private:
     std::vector<char> level_;            ///< per vertex: on the skin already
     std::vector<int> target_;            ///< per vertex the one that it becomes
     std::vector<char> refilled_;         ///< per triangle: of a mark that was cut out
-    std::multimap<int, Triangle> fill_;  ///< what closes the skin there, by a triangle of the skin beside it
+    std::multimap<int, Triangle> fill_;  ///< what closes the skin there, by a triangle of the skin
+                                         ///< beside it
     std::vector<Eigen::Vector3d> added_; ///< vertices of that, numbered from #V on
     std::vector<int> added_at_;          ///< vertices of the solid by which they are called
     Eigen::Matrix3Xd position_;
 
-    /// Marks on plane skin and on bends are cut out, and the skin is closed over them; at the rim, and on other skin, their floors are put back.
+    /// Marks on plane skin and on bends are cut out, and the skin is closed over them; at the rim,
+    /// and on other skin, their floors are put back.
     void refill()
     {
         constexpr double flat = 1e-3; // of the thickness
@@ -198,7 +200,8 @@ private:
             at.normal.normalize();
             if (!level_[size_t(v)]) {
                 at.over = straight_over(at);
-                // Of a bend triangles are chords; a vertex opposite to another one looks straight at it.
+                // Of a bend triangles are chords; a vertex opposite to another one looks straight
+                // at it.
                 constexpr double exact = 1e-4, alike = 0.94;
                 const ClosestPoint near = height.nearest(v);
                 const Eigen::Vector3d away = (solid_.position.col(v) - near.position).normalized();
@@ -259,7 +262,8 @@ private:
         const bool parallel = std::abs(at.height - step) <= 4 * chords_off_bends * sheet_.thickness;
         const Eigen::Vector3d back = solid_.position.col(at.v) + (parallel ? step : at.height) * at.normal;
         position_.col(at.v) = back;
-        // Beside a wall with other corners along its foot than along its top the nearest of those at the top will do.
+        // Beside a wall with other corners along its foot than along its top the nearest of those
+        // at the top will do.
         double shortest = std::numeric_limits<double>::infinity(), nearest = shortest;
         int over = -1;
         for (const int f : around_[size_t(at.v)])

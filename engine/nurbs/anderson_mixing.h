@@ -4,8 +4,9 @@
 
 namespace spia {
 
-/// Speeds up an iteration x -> g(x) that creeps towards its fixed point: next() is the combination of the last images, their factors
-/// with the sum 1, whose changes g(x) - x cancel best. [Anderson 1965; Walker and Ni 2011, eq. 2.1]
+/// Speeds up an iteration x -> g(x) that creeps towards its fixed point: next() is the combination
+/// of the last images, their factors with the sum 1, whose changes g(x) - x cancel best. [Anderson
+/// 1965; Walker and Ni 2011, eq. 2.1]
 class AndersonMixing {
 public:
     /// @param depth  how many steps back are combined

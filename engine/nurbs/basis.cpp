@@ -9,13 +9,14 @@ namespace {
 
 using Row = std::array<double, max_degree + 1>;
 
-/// From the functions of degree d - 1 that do not vanish on the span to those of degree d. Entry k of a row of degree d
-/// belongs to function span - d + k. No denominator is zero: each is the length of the support of a function that does
-/// not vanish on the span.
+/// From the functions of degree d - 1 that do not vanish on the span to those of degree d. Entry k
+/// of a row of degree d belongs to function span - d + k. No denominator is zero: each is the
+/// length of the support of a function that does not vanish on the span.
 Row raise(const Row& lower, const double* knot_of_span, int d, double u)
 {
     Row higher{};
-    for (int k = 0; k < d; ++k) { // lower[k] rises over [a, b] into higher[k + 1] and falls into higher[k]
+    for (int k = 0; k < d; ++k) { // lower[k] rises over [a, b] into higher[k + 1] and falls into
+                                  // higher[k]
         const double a = knot_of_span[k - d + 1], b = knot_of_span[k + 1];
         const double share = lower[size_t(k)] / (b - a);
         higher[size_t(k)] += (b - u) * share;
@@ -24,8 +25,8 @@ Row raise(const Row& lower, const double* knot_of_span, int d, double u)
     return higher;
 }
 
-/// The derivatives of the functions of degree d from the functions of degree d - 1; from the derivatives of
-/// those, the next higher derivatives.
+/// The derivatives of the functions of degree d from the functions of degree d - 1; from the
+/// derivatives of those, the next higher derivatives.
 Row raise_derivative(const Row& lower, const double* knot_of_span, int d)
 {
     Row higher{};

@@ -27,12 +27,14 @@ const std::array<std::array<double, most>, most>& choose()
 
 double binomial(int n, int k) { return choose()[size_t(n)][size_t(k)]; }
 
-/// Row k of the result: weights of the degree + 1 control points of a span in its Bezier coefficient k.
+/// Row k of the result: weights of the degree + 1 control points of a span in its Bezier
+/// coefficient k.
 Eigen::MatrixXd extraction(const std::vector<double>& knots, int degree, int span)
 {
     const double* knot = knots.data() + span;
     Eigen::MatrixXd result(degree + 1, degree + 1);
-    for (int k = 0; k <= degree; ++k) { // the blossom at k times the end and degree - k times the beginning
+    for (int k = 0; k <= degree; ++k) { // the blossom at k times the end and degree - k times the
+                                        // beginning
         Eigen::MatrixXd d = Eigen::MatrixXd::Identity(degree + 1, degree + 1);
         for (int r = 1; r <= degree; ++r) {
             const double argument = r <= k ? knot[1] : knot[0];

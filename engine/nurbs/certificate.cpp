@@ -24,8 +24,8 @@ constexpr double gauss_share[] = {0.347854845137453857, 0.652145154862546143, 0.
 /// Of the largest coefficient of a piece: what rounding may have done to the others.
 constexpr double rounding = 1e-12;
 
-/// Halvings of a span along each direction before it is given up: 1/1024 of it. Where S_u x S_v is not zero so few are needed that the
-/// bound is met near a fold only.
+/// Halvings of a span along each direction before it is given up: 1/1024 of it. Where S_u x S_v is
+/// not zero so few are needed that the bound is met near a fold only.
 constexpr int most_halvings = 10;
 
 constexpr const char* proving = "proving that nothing folds";
@@ -69,7 +69,8 @@ struct Piece {
     int depth = 0;
 };
 
-/// A lower bound of the numerator's length if all coefficients are on one side of their mean, else 0.
+/// A lower bound of the numerator's length if all coefficients are on one side of their mean, else
+/// 0.
 double lower_bound(const BezierPatch& normal)
 {
     const Eigen::Vector3d mean = normal.coefficient.rowwise().sum();
@@ -113,7 +114,8 @@ bool turns_round(const BezierPatch& span)
     });
 }
 
-/// Proves one span, halving it where its coefficients do not show it. @returns the bound of its pieces; 0: refused
+/// Proves one span, halving it where its coefficients do not show it. @returns the bound of its
+/// pieces; 0: refused
 double prove_span(const NurbsSurface& surface, const Piece& whole, PatchCertificate& certificate,
                   const Progress& progress)
 {
@@ -144,7 +146,8 @@ double prove_span(const NurbsSurface& surface, const Piece& whole, PatchCertific
     return bound;
 }
 
-/// Proves that the normals on two sides of a line keep within 90 degrees: rows of coefficients along it, both of one degree.
+/// Proves that the normals on two sides of a line keep within 90 degrees: rows of coefficients
+/// along it, both of one degree.
 /// @returns where they do not, from 0 to 1 along the line
 std::optional<double> kink(Eigen::MatrixXd left, Eigen::MatrixXd right)
 {
@@ -301,7 +304,8 @@ InterfaceCertificate measure(const MultiPatch& patches, const PatchInterface& jo
 {
     const NurbsSurface &a = patches.patch[size_t(joint.first.patch)], &b = patches.patch[size_t(joint.second.patch)];
     const std::vector<double> t = span_borders(side_knots(a, joint.first.side), side_degree(a, joint.first.side));
-    // The normals point to one side of the sheet if the patches lie on different sides of the common curve.
+    // The normals point to one side of the sheet if the patches lie on different sides of the
+    // common curve.
     const bool agree = on_the_left(joint.first.side) != (on_the_left(joint.second.side) != joint.reversed);
     InterfaceCertificate result{joint, 0, 0};
     int count = 0;

@@ -17,7 +17,8 @@ constexpr Eigen::Index most_control_points = 20'000; // beyond, a trial takes se
 constexpr size_t most_trials = 16;
 constexpr double greatest_factor = 64; // more than a cubic loses by joining two spans
 
-/// Joins halves of one span in which nothing is farther away than `distance`. @param largest  per span, mm
+/// Joins halves of one span in which nothing is farther away than `distance`. @param largest per
+/// span, mm
 std::vector<double> joined(const std::vector<double>& borders, const std::vector<double>& largest, double distance,
                            size_t fewest)
 {
@@ -27,7 +28,8 @@ std::vector<double> joined(const std::vector<double>& borders, const std::vector
         if (s + 2 < borders.size() && left > fewest) {
             const double width = borders[s + 1] - borders[s];
             const bool halves =
-                borders[s + 2] - borders[s + 1] == width && std::fmod(borders[s], 2 * width) == 0; // of one dyadic span
+                // of one dyadic span
+                borders[s + 2] - borders[s + 1] == width && std::fmod(borders[s], 2 * width) == 0;
             if (halves && std::max(largest[s], largest[s + 1]) <= distance) {
                 result.push_back(borders[s + 2]);
                 ++s;
@@ -123,7 +125,8 @@ std::optional<SpanBorders> KnotEquidistribution::next(const NurbsSurface& surfac
 {
     constexpr Eigen::Index most_controls = 4'000;
     constexpr int most_tries = 14;
-    const bool single = options_.ends == CurveEnds::averaged_knots; // others ask for certain spans at the ends
+    // others ask for certain spans at the ends
+    const bool single = options_.ends == CurveEnds::averaged_knots;
     if (!single || !source_.lines_u.empty() || !source_.lines_v.empty() || surface.control.cols() > most_controls)
         return {};
     const SpanBorders now{span_borders(surface.knots_u, surface.degree_u),

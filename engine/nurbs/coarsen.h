@@ -12,13 +12,15 @@ struct SpanBorders {
     bool operator==(const SpanBorders&) const = default;
 };
 
-/// Proposes halves of spans that could be joined again: those in which a surface within the tolerance is better by a factor than
-/// it need be. Which factor suffices is tried: what was proposed has to be fitted and judged.
+/// Proposes halves of spans that could be joined again: those in which a surface within the
+/// tolerance is better by a factor than it need be. Which factor suffices is tried: what was
+/// proposed has to be fitted and judged.
 class SpanMerging {
 public:
     SpanMerging(const TriMesh& mesh, const FitOptions& options) : mesh_(mesh), options_(options) {}
 
-    /// @returns none if nothing is left to try, or the surface is so large that trying costs too much
+    /// @returns none if nothing is left to try, or the surface is so large that trying costs too
+    /// much
     std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);
 
     /// Whether the last proposal was good enough.
@@ -27,18 +29,20 @@ public:
 private:
     const TriMesh& mesh_;
     const FitOptions& options_;
-    double factor_ = 1.2; ///< nearly all at first: what can be joined depends on the neighbours, too
+    double factor_ = 1.2; ///< nearly all at first: what can be joined depends on the neighbours,
+                          ///< too
     bool along_u_ = true; ///< one direction at a time
     std::vector<SpanBorders> tried_;
 };
 
-/// Proposes fewer spans of even change (equidistributed_spans()) for a surface within the tolerance, one direction at a time, fewer by a share that is
-/// halved where it was too bold.
+/// Proposes fewer spans of even change (equidistributed_spans()) for a surface within the
+/// tolerance, one direction at a time, fewer by a share that is halved where it was too bold.
 class KnotEquidistribution {
 public:
     KnotEquidistribution(const FitSource& source, const FitOptions& options) : source_(source), options_(options) {}
 
-    /// @returns none if nothing is left to try, the data lie on lines of their own, or trying costs too much
+    /// @returns none if nothing is left to try, the data lie on lines of their own, or trying costs
+    /// too much
     std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);
 
     /// Whether the last proposal was good enough.
@@ -52,7 +56,8 @@ private:
     int trials_ = 0;
 };
 
-/// Proposes to leave one knot out of a small surface within the tolerance, first those whose place the surface notices least.
+/// Proposes to leave one knot out of a small surface within the tolerance, first those whose place
+/// the surface notices least.
 class KnotRemoval {
 public:
     explicit KnotRemoval(const FitOptions& options) : options_(options) {}

@@ -18,7 +18,8 @@ constexpr int mixed = 8;
 constexpr int times_without_weights = 30, times_per_weights = 10;
 // Of a point that the surface passes through, to that of the farthest one, each time.
 constexpr double least_weight = 0.5;
-// Of the least one between the lines u and v: leaning over ever more, a surface is of no use to an analysis.
+// Of the least one between the lines u and v: leaning over ever more, a surface is of no use to an
+// analysis.
 constexpr double kept_sine = 0.5;
 constexpr double settled = 1e-9; // change of the control points, of their size
 
@@ -88,14 +89,16 @@ private:
         sum_before_ = std::numeric_limits<double>::infinity();
     }
 
-    /// The surface fitted to the points, or mixed with those before. @returns how much that fit changes, of its size
+    /// The surface fitted to the points, or mixed with those before. @returns how much that fit
+    /// changes, of its size
     double step()
     {
         const double sum = weight_.dot(distance_.cwiseAbs2());
         Eigen::Matrix3Xd& control = fit_.surface.control;
         const Eigen::VectorXd before = flat(control);
-        // A target drawn on beyond its foot counts like a point with a larger weight: where the surface rests, the weighted distances
-        // are orthogonal to what it can do. Drawn on too far the steps would swing.
+        // A target drawn on beyond its foot counts like a point with a larger weight: where the
+        // surface rests, the weighted distances are orthogonal to what it can do. Drawn on too far
+        // the steps would swing.
         const double factor = std::min(2 / (1 + weight_.minCoeff()), 1 / weight_.mean());
         Eigen::Matrix3Xd target = on_surface_ + (fit_.points - on_surface_) * (factor * weight_).asDiagonal();
         fit_to(fit_, target);

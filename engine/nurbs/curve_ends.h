@@ -7,8 +7,8 @@ namespace spia {
 enum class CurveEnds {
     averaged_knots, ///< nothing is asked of them: full order up to the border
     clamped,        ///< the derivative there is the one estimated from the data next to the end
-    /// The second derivative vanishes, as in the paper (4.4.4): loses two orders at the border (theory.md 5; the test
-    /// AveragedKnotsHaveOrderFourUpToTheBorderAndNaturalEndsTwo).
+    /// The second derivative vanishes, as in the paper (4.4.4): loses two orders at the border
+    /// (theory.md 5; the test AveragedKnotsHaveOrderFourUpToTheBorderAndNaturalEndsTwo).
     natural
 };
 

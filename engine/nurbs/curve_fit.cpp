@@ -110,7 +110,8 @@ void CurveFit::express_third(Row& row, int first, int second, int third, double 
 void CurveFit::factorize()
 {
     const int n = count();
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, band_ + 1); // (i, j) in row i, column j - i + band_
+    // (i, j) in row i, column j - i + band_
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, band_ + 1);
     for (size_t r = 0; r < row_.size(); ++r) {
         const Row& row = row_[r];
         for (int a = 0; a < row.free.size(); ++a)

@@ -96,7 +96,8 @@ DeviationStatistics statistics(const Samples& samples, double tolerance, const P
     return result;
 }
 
-/// The length of the parameter line that each sample stands for: half of the way to both neighbours.
+/// The length of the parameter line that each sample stands for: half of the way to both
+/// neighbours.
 std::vector<double> shares(const std::vector<double>& parameters)
 {
     std::vector<double> result(parameters.size(), 0);
@@ -159,8 +160,8 @@ SurfaceMeasure measure_surface(const NurbsSurface& surface, const std::vector<do
     return result;
 }
 
-/// How densely the surface is tessellated to start the projections: as asked, but sparser on a very large net, where
-/// memory is short and the spans are nearly flat.
+/// How densely the surface is tessellated to start the projections: as asked, but sparser on a very
+/// large net, where memory is short and the spans are nearly flat.
 int start_samples_per_span(const NurbsSurface& surface, int asked)
 {
     constexpr double most = 1e6;

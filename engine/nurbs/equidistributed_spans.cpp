@@ -73,7 +73,8 @@ std::vector<double> equidistributed_spans(const NurbsSurface& surface, bool alon
         density[s] = std::pow(density[s], 1. / (degree + 1));
         whole += density[s] * (border[s + 1] - border[s]);
     }
-    constexpr double least = 0.1; // of the mean: a span is not to be without any end where nothing is seen to happen
+    constexpr double least = 0.1; // of the mean: a span is not to be without any end where nothing
+                                  // is seen to happen
     double sum = 0;
     for (double& d : density)
         d = whole > 0 ? std::max(d, least * whole) : 1;

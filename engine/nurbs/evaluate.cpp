@@ -27,7 +27,8 @@ SurfacePoint evaluate(const NurbsSurface& surface, double u, double v)
     v = std::clamp(v, surface.knots_v[size_t(q)], surface.knots_v[size_t(surface.count_v)]);
     const BasisValues N = basis(surface.knots_u, p, u), M = basis(surface.knots_v, q, v);
 
-    // The surface of (weight * point, weight) in four dimensions, A = (w S, w), and its derivatives.
+    // The surface of (weight * point, weight) in four dimensions, A = (w S, w), and its
+    // derivatives.
     Eigen::Vector4d A = Eigen::Vector4d::Zero(), A_u = A, A_v = A, A_uu = A, A_uv = A, A_vv = A;
     for (int j = 0; j <= q; ++j) {
         Eigen::Vector4d row = Eigen::Vector4d::Zero(), row_u = row, row_uu = row;

@@ -98,7 +98,8 @@ std::vector<double> borders_of_sides(const FitSource& source, const FitOptions& 
     of_curve.most_spans = int(std::sqrt(double(options.max_control_points))) / 2;
     std::vector<double> result = first_borders(options.ends);
     for (const double across : {0., 1.}) {
-        const std::vector<double> ends = {0, 1}; // a source may ask for both borders of the other direction
+        const std::vector<double> ends = {0, 1}; // a source may ask for both borders of the other
+                                                 // direction
         const CurveSource side = [&](const std::vector<double>& t) -> Eigen::Matrix3Xd {
             const Eigen::Index n = Eigen::Index(t.size());
             const Eigen::Matrix3Xd both = along_u ? source.at(t, ends) : source.at(ends, t);
@@ -112,7 +113,8 @@ std::vector<double> borders_of_sides(const FitSource& source, const FitOptions& 
     return result;
 }
 
-/// mm around the worst place within which its cause lies: what one cell of the knots and its neighbours cover.
+/// mm around the worst place within which its cause lies: what one cell of the knots and its
+/// neighbours cover.
 double reach_of(const NurbsSurface& surface, const BeyondTolerance& worst)
 {
     const auto borders_u = span_borders(surface.knots_u, surface.degree_u);
@@ -256,8 +258,8 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
                             std::move(judgement)};
         }
     };
-    // Halving gives more than is needed: where two halves are far better than asked for, they are joined again. Spans of even change
-    // can be fewer than halved ones.
+    // Halving gives more than is needed: where two halves are far better than asked for, they are
+    // joined again. Spans of even change can be fewer than halved ones.
     take_fewer(SpanMerging(mesh, options), "joining to");
     take_fewer(KnotEquidistribution(source, options), "evening");
     if (corrected)

@@ -16,16 +16,17 @@ namespace spia {
 struct FitSource {
     /// The points at u x v, u fastest, mm; for parameters rising from 0 to 1.
     std::function<Eigen::Matrix3Xd(const std::vector<double>& u, const std::vector<double>& v)> at;
-    std::vector<double> lines_u = {}, lines_v = {}; ///< the only parameters at which it is known; empty: any
+    std::vector<double> lines_u = {}, lines_v = {}; ///< the only parameters at which it is known;
+                                                    ///< empty: any
 };
 
 /// The nodes of a grid at even parameters, and no others.
 FitSource source_of(const QuadGrid& lifted);
 
 enum class FitParameters {
-    blank, ///< a point keeps its place in the blank: (u, v) of the surface are those of the grid
-    corrected ///< points slide over the part to where the surface is nearest: closer with fewer knots, but (u, v) no longer
-              ///< are places of the blank [Hoschek 1988]
+    blank,    ///< a point keeps its place in the blank: (u, v) of the surface are those of the grid
+    corrected ///< points slide over the part to where the surface is nearest: closer with fewer
+              ///< knots, but (u, v) no longer are places of the blank [Hoschek 1988]
 };
 
 struct FitOptions {
@@ -35,7 +36,8 @@ struct FitOptions {
     FitParameters parameters = FitParameters::blank;
     int max_control_points = 100'000;
     int part_faces = -1;               ///< see DeviationOptions
-    std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
+    std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as
+                                       ///< in the mesh
 };
 
 /// Why a surface stayed farther away than the tolerance.
@@ -51,7 +53,8 @@ struct FitShortfall {
     int a = -1, b = -1; ///< vertices of the mesh: the edge; at a corner only a
     double angle = 0;   ///< radians: between the normals of the two faces, or the outline's turn
     Eigen::Vector3d where = Eigen::Vector3d::Zero(); ///< mm, the place of the largest deviation
-    std::string text;                                ///< what it is and what to do, for a person; empty for none
+    std::string text;                                ///< what it is and what to do, for a person;
+                                                     ///< empty for none
 };
 
 /// How a fit went.
@@ -70,11 +73,13 @@ struct FitResult {
     FitReport report;
 };
 
-/// A least squares surface within a tolerance of the part. It begins with a single span (two or four if ends are asked
-/// for); spans in which a sample of either way is too far from the part are halved, along u, v or both, by what least squares
-/// along one direction alone leaves there; so until no sample is left. The four border curves are fitted first and held.
-/// Spans that turn out finer than they need be are joined again, and of a surface of up to 4000 control points shared out evenly by how it
-/// changes (equidistributed_spans()); with corrected parameters knots are left out one by one as well (KnotRemoval). [exchange-and-iga.md 5; NURBS Book, A9.7]
+/// A least squares surface within a tolerance of the part. It begins with a single span (two or
+/// four if ends are asked for); spans in which a sample of either way is too far from the part are
+/// halved, along u, v or both, by what least squares along one direction alone leaves there; so
+/// until no sample is left. The four border curves are fitted first and held. Spans that turn out
+/// finer than they need be are joined again, and of a surface of up to 4000 control points shared
+/// out evenly by how it changes (equidistributed_spans()); with corrected parameters knots are left
+/// out one by one as well (KnotRemoval). [exchange-and-iga.md 5; NURBS Book, A9.7]
 /// @param mesh  the part, or the part with its holes filled: what the deviation is measured from
 /// @throws InputError  if an option is out of range or the source gives something else than points
 FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& options = {},

@@ -11,7 +11,8 @@ namespace spia {
 struct Judgement {
     Deviation deviation;
     bool within = false;                  ///< the tolerance, at every sample
-    std::vector<BeyondTolerance> missing; ///< where knots are missing: too far away or, if nothing is, folded
+    std::vector<BeyondTolerance> missing; ///< where knots are missing: too far away or, if nothing
+                                          ///< is, folded
 };
 
 /// Judges one surface after the other by the same part and tolerance; both must outlive it.
@@ -19,8 +20,8 @@ class FitJudge {
 public:
     FitJudge(const TriMesh& part, const FitOptions& options, const Progress& progress = {});
 
-    /// Samples of the surface first, the other way only if these are near enough; then, many more in the spans in which some
-    /// came close to the tolerance.
+    /// Samples of the surface first, the other way only if these are near enough; then, many more
+    /// in the spans in which some came close to the tolerance.
     /// @param at_once  both ways, whatever the first one shows
     Judgement judge(const NurbsSurface& surface, bool at_once, const Progress& progress) const;
 

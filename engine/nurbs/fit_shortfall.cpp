@@ -80,7 +80,8 @@ void look_around(const TriMesh& mesh, int part_faces, const std::array<Eigen::Ve
 FitShortfall find_shortfall(const NurbsSurface& surface, const TriMesh& mesh, const FitOptions& options,
                             const Eigen::Vector3d& where, double reach, double left, FitShortfall::Reason otherwise)
 {
-    // More than the facets of a fine mesh have; with few data an edge must be sharper to be the reason.
+    // More than the facets of a fine mesh have; with few data an edge must be sharper to be the
+    // reason.
     const double notable = (otherwise == FitShortfall::Reason::data ? 20 : 5) * M_PI / 180;
     const int part_faces = options.part_faces < 0 ? mesh.triangles() : options.part_faces;
     Sharpest edge, corner;

@@ -45,7 +45,8 @@ double interval(const Eigen::Vector3d& a, const Eigen::Vector3d& b, InterpolateO
     return 1;
 }
 
-/// Parameters along u: each row of points divides [0, 1] by the lengths of its intervals, and the rows' mean is taken.
+/// Parameters along u: each row of points divides [0, 1] by the lengths of its intervals, and the
+/// rows' mean is taken.
 MeanParameters mean_parameters(const Eigen::Matrix3Xd& points, int count_u, InterpolateOptions::Parameters kind)
 {
     const int intervals = count_u - 1, rows = int(points.cols()) / count_u;
@@ -63,8 +64,8 @@ MeanParameters mean_parameters(const Eigen::Matrix3Xd& points, int count_u, Inte
             mean += length.col(j) / whole[j];
     if (mean.sum() > 0)
         mean *= intervals / mean.sum(); // 1 is now the mean interval
-    // Two columns of nodes at one parameter would make the matrix singular; held this far apart, they cost no
-    // more than about four of its sixteen digits.
+    // Two columns of nodes at one parameter would make the matrix singular; held this far apart,
+    // they cost no more than about four of its sixteen digits.
     constexpr double narrowest = 1e-4;
     MeanParameters result;
     result.coinciding = int((mean.array() < narrowest).count());
@@ -78,7 +79,8 @@ MeanParameters mean_parameters(const Eigen::Matrix3Xd& points, int count_u, Inte
     return result;
 }
 
-/// Clamped knots, each inner one the mean of `degree` neighbouring parameters. [NURBS Book, eq. 9.8]
+/// Clamped knots, each inner one the mean of `degree` neighbouring parameters. [NURBS Book, eq.
+/// 9.8]
 std::vector<double> averaged_knots(const std::vector<double>& parameters, int degree)
 {
     std::vector<double> knots(size_t(degree) + 1, 0);
@@ -122,7 +124,8 @@ public:
         : ends_(ends), points_(int(parameters.size()))
     {
         if (ends_ == CurveEnds::clamped && points_ < wanted_degree)
-            ends_ = CurveEnds::averaged_knots; // a polynomial through all points: its tangents are the estimated ones
+            ends_ = CurveEnds::averaged_knots; // a polynomial through all points: its tangents are
+                                               // the estimated ones
         degree = ends_ == CurveEnds::averaged_knots ? std::min(wanted_degree, points_ - 1) : wanted_degree;
         knots = ends_ == CurveEnds::natural   ? knots_at_parameters(parameters)
                 : ends_ == CurveEnds::clamped ? averaged_knots_with_end_tangents(parameters, degree)
@@ -160,11 +163,13 @@ public:
             throw SolveError("the interpolation matrix is singular: " + lu_.lastErrorMessage());
     }
 
-    /// Points (i, j), i fastest, of `width` curves that run along j, to their control points in the same order.
+    /// Points (i, j), i fastest, of `width` curves that run along j, to their control points in the
+    /// same order.
     Eigen::Matrix3Xd solve(const Eigen::Matrix3Xd& points, int width) const
     {
         const Eigen::Map<const Eigen::MatrixXd> rows(points.data(), 3 * width, points_);
-        Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3 * width); // one column per curve and coordinate
+        // one column per curve and coordinate
+        Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3 * width);
         for (int j = 0; j < points_; ++j)
             right.row(row_of_point(j)) = rows.col(j).transpose();
         for (Eigen::Index k = 0; k < tangent_start_.size(); ++k) {
@@ -194,7 +199,8 @@ private:
 
     CurveEnds ends_;
     int points_;
-    Eigen::VectorXd tangent_start_, tangent_end_; ///< clamped: weights of the points in the right side's end rows
+    Eigen::VectorXd tangent_start_, tangent_end_; ///< clamped: weights of the points in the right
+                                                  ///< side's end rows
     Eigen::SparseLU<Eigen::SparseMatrix<double>> lu_;
 };
 

@@ -6,8 +6,9 @@
 
 namespace spia {
 
-/// The places of a mesh that are projected on a surface: all vertices first, then the midpoints of the part's faces and
-/// edges. The weights integrate cubic functions exactly over each face (1/20, 2/15 and 9/20 of its area).
+/// The places of a mesh that are projected on a surface: all vertices first, then the midpoints of
+/// the part's faces and edges. The weights integrate cubic functions exactly over each face (1/20,
+/// 2/15 and 9/20 of its area).
 struct MeshSamples {
     Eigen::Matrix3Xd position;  ///< mm
     std::vector<double> weight; ///< mm2, the area it stands for

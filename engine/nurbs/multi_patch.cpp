@@ -174,7 +174,8 @@ MultiPatch joined(std::vector<NurbsSurface> patches)
 {
     MultiPatch result{std::move(patches), {}};
     std::vector<PatchSide> open;
-    std::map<std::array<double, 6>, std::vector<size_t>> by_ends; // the same curve has the same ends
+    // the same curve has the same ends
+    std::map<std::array<double, 6>, std::vector<size_t>> by_ends;
     std::vector<const std::vector<size_t>*> candidates;
     for (int p = 0; p < int(result.patch.size()); ++p)
         for (const Side side : sides)

@@ -49,7 +49,8 @@ Eigen::MatrixXd least_squares(const Sparse& N, const Eigen::MatrixXd& values)
     }
     Sparse second(inner, count);
     second.setFromTriplets(entries.begin(), entries.end());
-    // So little moves the result by 1e-10 of what the values leave in doubt, and settles what they leave open.
+    // So little moves the result by 1e-10 of what the values leave in doubt, and settles what they
+    // leave open.
     constexpr double smoothing = 1e-10;
     const Sparse normal = Sparse(N.transpose() * N) + smoothing * Sparse(second.transpose() * second);
     const Eigen::MatrixXd right =
@@ -70,7 +71,8 @@ Eigen::MatrixXd control_values(const std::vector<double>& knots, int degree, con
         return least_squares(N, values);
     Eigen::SparseLU<Sparse> solver(N);
     if (solver.info() != Eigen::Success)
-        return least_squares(N, values); // as many, but not where the knots want them (Schoenberg-Whitney)
+        return least_squares(N, values); // as many, but not where the knots want them
+                                         // (Schoenberg-Whitney)
     return solver.solve(values);
 }
 
@@ -162,7 +164,8 @@ void share_borders(const MultiPatch& patches, PatchField& field)
         require_values(patches.patch[p], field.value[p], field.name, p);
         largest = std::max(largest, field.value[p].cwiseAbs().maxCoeff());
     }
-    constexpr double rounding = 1e-9; // of the largest value: what solving two equal systems may set them apart
+    constexpr double rounding = 1e-9; // of the largest value: what solving two equal systems may
+                                      // set them apart
     const SharedControls shared = shared_controls(patches);
     std::vector<const double*> first(size_t(shared.count), nullptr);
     for (int p = 0; p < int(patches.patch.size()); ++p)

@@ -3,7 +3,8 @@
 
 namespace spia {
 
-/// A tensor grid of points (i, j), i fastest, with i and j exchanged. @param count_u  number of values of i
+/// A tensor grid of points (i, j), i fastest, with i and j exchanged. @param count_u number of
+/// values of i
 inline Eigen::Matrix3Xd transposed(const Eigen::Matrix3Xd& points, int count_u)
 {
     const int count_v = int(points.cols()) / count_u;

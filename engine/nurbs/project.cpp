@@ -39,7 +39,8 @@ Eigen::Vector2d step_along(int axis, const Eigen::Matrix2d& newton, const Eigen:
     return step;
 }
 
-/// A direction in which |S(u, v) - point|^2 falls and that does not leave the domain at once; zero if there is none.
+/// A direction in which |S(u, v) - point|^2 falls and that does not leave the domain at once; zero
+/// if there is none.
 Eigen::Vector2d descent(const SurfacePoint& s, const Eigen::Vector3d& point, const Eigen::Vector2d& uv,
                         const Domain& domain)
 {
@@ -50,8 +51,8 @@ Eigen::Vector2d descent(const SurfacePoint& s, const Eigen::Vector3d& point, con
     newton << r.dot(s.S_uu), r.dot(s.S_uv), r.dot(s.S_uv), r.dot(s.S_vv);
     newton += gauss;
 
-    // Beyond a centre of curvature Newton's matrix is not positive and would lead uphill; where S_u and S_v are
-    // parallel not even Gauss's is.
+    // Beyond a centre of curvature Newton's matrix is not positive and would lead uphill; where S_u
+    // and S_v are parallel not even Gauss's is.
     constexpr double definite = 1e-8;
     const auto positive = [&](const Eigen::Matrix2d& m) {
         return m(0, 0) > 0 && m.determinant() > definite * gauss(0, 0) * gauss(1, 1);
@@ -79,7 +80,8 @@ SurfaceFoot refine(const NurbsSurface& surface, const Eigen::Vector3d& point, Ei
     constexpr int max_steps = 30, max_halvings = 12;
     // Newton's last step squares the error: what is left after a step of this length is rounding.
     const double short_step = 1e-10 * size;
-    // Close to the foot the distance hardly changes, but the step is still good for digits of (u, v).
+    // Close to the foot the distance hardly changes, but the step is still good for digits of (u,
+    // v).
     constexpr double rounding = 1e-14;
     const Domain domain(surface);
     SurfacePoint here = evaluate(surface, uv[0], uv[1]);

@@ -49,7 +49,8 @@ RefinementIndicators refinement_indicators(const NurbsSurface& surface, const st
             const double distance = worst[size_t(a) + size_t(b) * size_t(spans_u)];
             if (distance == 0)
                 continue;
-            // Along the surface only the parameters differ; at its border that may open a gap all the same.
+            // Along the surface only the parameters differ; at its border that may open a gap all
+            // the same.
             const bool at_border = a == 0 || b == 0 || a == spans_u - 1 || b == spans_v - 1;
             const Eigen::Vector3d normal = evaluate(surface, (borders_u[size_t(a)] + borders_u[size_t(a) + 1]) / 2,
                                                     (borders_v[size_t(b)] + borders_v[size_t(b) + 1]) / 2)
@@ -63,7 +64,8 @@ RefinementIndicators refinement_indicators(const NurbsSurface& surface, const st
                     across_u = std::max(across_u, std::abs(residual.u.col(n).dot(normal)));
                     across_v = std::max(across_v, std::abs(residual.v.col(n).dot(normal)));
                 }
-            constexpr double telling = 0.1; // of the distance: less is not what keeps the surface away
+            constexpr double telling = 0.1; // of the distance: less is not what keeps the surface
+                                            // away
             if (!at_border && std::max(across_u, across_v) > telling * distance) {
                 left_u = across_u;
                 left_v = across_v;

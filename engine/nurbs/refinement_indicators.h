@@ -6,9 +6,9 @@
 
 namespace spia {
 
-/// How urgently each span wants to be halved, mm: the largest distance beyond the tolerance that it has a part in; 0: not at
-/// all. A place that is too far away asks for knots in the direction in which least squares alone leaves most there; in
-/// both if it leaves about as much.
+/// How urgently each span wants to be halved, mm: the largest distance beyond the tolerance that it
+/// has a part in; 0: not at all. A place that is too far away asks for knots in the direction in
+/// which least squares alone leaves most there; in both if it leaves about as much.
 struct RefinementIndicators {
     std::vector<double> u, v; ///< per span
 };

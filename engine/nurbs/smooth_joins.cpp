@@ -53,7 +53,8 @@ struct Place {
     {
         const Vector3d a = value(derivative[0], control), b = value(derivative[1], control),
                        t = value(derivative[2], control);
-        const Vector3d x = a.cross(t).normalized(), y = t.cross(b).normalized(); // normals of one side of the sheet
+        // normals of one side of the sheet
+        const Vector3d x = a.cross(t).normalized(), y = t.cross(b).normalized();
         return {x.cross(y).dot(t.normalized()), x.dot(y)};
     }
 };
@@ -126,7 +127,8 @@ std::vector<int> unknowns_of(const MultiPatch& patches, const SharedControls& sh
                 for (const int control : row)
                     free[size_t(shared.of(one.patch, control))] = 1;
         }
-    // Where a join ends on the border of the whole; the border's next control points have to turn into one tangent plane.
+    // Where a join ends on the border of the whole; the border's next control points have to turn
+    // into one tangent plane.
     std::vector<char> border(free.size(), 0);
     for (const PatchSide& one : outer_sides(patches))
         for (const int control : side_controls(patches.patch[size_t(one.patch)], one.side))

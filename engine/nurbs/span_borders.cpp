@@ -20,8 +20,8 @@ bool may_halve(double from, double to, const std::vector<double>& lines)
     constexpr double narrowest = 1. / (1 << 20);
     if (lines.empty())
         return to - from > 1.5 * narrowest;
-    // With two lines in every span no set of functions has fewer data than members (Schoenberg and Whitney), and some are
-    // left to say how far the curve is from them.
+    // With two lines in every span no set of functions has fewer data than members (Schoenberg and
+    // Whitney), and some are left to say how far the curve is from them.
     const double middle = (from + to) / 2;
     const auto below = [&](double t) { return std::lower_bound(lines.begin(), lines.end(), t) - lines.begin(); };
     return below(middle) - below(from) >= 2 && below(to) - below(middle) >= 2;

@@ -5,8 +5,8 @@
 
 namespace spia {
 
-/// Borders of spans that are halved again and again: dyadic from 0 to 1, so that they are exact under t -> 1 - t and those
-/// of two sides can be united.
+/// Borders of spans that are halved again and again: dyadic from 0 to 1, so that they are exact
+/// under t -> 1 - t and those of two sides can be united.
 
 /// The fewest spans with which a curve can have these ends.
 std::vector<double> first_borders(CurveEnds ends);
@@ -20,7 +20,8 @@ std::vector<double> halved(const std::vector<double>& borders, const std::vector
 
 std::vector<double> united(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Parameters of the data for a least squares fit over these spans: evenly in each span, borders included.
+/// Parameters of the data for a least squares fit over these spans: evenly in each span, borders
+/// included.
 /// @param lines  the only parameters at which there are data: these are taken; empty: any
 std::vector<double> data_parameters(const std::vector<double>& borders, const std::vector<double>& lines);
 

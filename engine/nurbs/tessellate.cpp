@@ -43,7 +43,8 @@ Tessellation tessellate(const NurbsSurface& surface, int samples_per_span, const
         result.uv.col(i) << at_u, at_v;
         result.mesh.position.col(i) = point.position;
         result.normal.col(i) = point.normal();
-        if (result.normal.col(i).isZero(0)) { // a collapsed side: the normal just inside of it is its limit
+        if (result.normal.col(i).isZero(0)) { // a collapsed side: the normal just inside of it is
+                                              // its limit
             const double inside_u = at_u + 1e-4 * (0.5 * (u.front() + u.back()) - at_u);
             const double inside_v = at_v + 1e-4 * (0.5 * (v.front() + v.back()) - at_v);
             result.normal.col(i) = evaluate(surface, inside_u, inside_v).normal();

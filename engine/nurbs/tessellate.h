@@ -12,12 +12,13 @@ struct Tessellation {
     Eigen::Matrix3Xd normal; ///< 3 by #V, unit, S_u x S_v; on a collapsed side its limit
 };
 
-/// Samples every span evenly, its borders included; two triangles per cell. Along a side collapsed to a point, one of
-/// the two has no area.
+/// Samples every span evenly, its borders included; two triangles per cell. Along a side collapsed
+/// to a point, one of the two has no area.
 /// @throws InputError  if samples_per_span < 1 or the surface has too many samples to be numbered
 Tessellation tessellate(const NurbsSurface& surface, int samples_per_span = 4, const Progress& progress = {});
 
-/// The distinct knots of one direction with samples_per_span - 1 even steps between every two of them.
+/// The distinct knots of one direction with samples_per_span - 1 even steps between every two of
+/// them.
 std::vector<double> sample_parameters(const std::vector<double>& knots, int degree, int samples_per_span);
 
 } // namespace spia

@@ -55,7 +55,8 @@ struct Before {
 /// Places where borders of holes touch.
 using Pinches = std::set<Eigen::Vector3d, Before>;
 
-/// A border that comes back to a place, where a hole is pinched to a point, as the borders of the holes on both sides of it.
+/// A border that comes back to a place, where a hole is pinched to a point, as the borders of the
+/// holes on both sides of it.
 std::vector<std::vector<int>> simple_loops(const std::vector<int>& loop, const TriMesh& part, Pinches& pinches)
 {
     std::map<Eigen::Vector3d, size_t, Before> open; // places of `rest` by their row
@@ -100,8 +101,8 @@ Border border_of(const std::vector<int>& loop, const TriMesh& part, const Surfac
     return border;
 }
 
-/// Where a hole is pinched to a point the loops on both sides of it end this much before it, mm: CAD kernels take no face whose
-/// inner borders touch.
+/// Where a hole is pinched to a point the loops on both sides of it end this much before it, mm:
+/// CAD kernels take no face whose inner borders touch.
 constexpr double parted = 1e-3;
 
 void part_at_pinches(Border& border, const Pinches& pinches)
@@ -116,7 +117,8 @@ void part_at_pinches(Border& border, const Pinches& pinches)
     }
 }
 
-/// Where curves begin: at the corners, or at two opposite vertices, for no curve is closed by itself.
+/// Where curves begin: at the corners, or at two opposite vertices, for no curve is closed by
+/// itself.
 std::vector<int> starts(const Border& border)
 {
     std::vector<int> result;
@@ -249,7 +251,8 @@ void leave_crossing_ones(TrimResult& result, const std::vector<int>& first_verte
                                     : other == loop ? "its border crosses itself on the surface"
                                                     : "it touches another hole on the surface";
     }
-    // Holes may touch each other in a point, but one that touches the border of the surface is no hole.
+    // Holes may touch each other in a point, but one that touches the border of the surface is no
+    // hole.
     for (Eigen::Index i = 0; i < chords.point.cols(); ++i)
         if (const int loop = chords.loop_of[size_t(i)];
             loop != border && (chords.point.col(i).minCoeff() <= 0 || chords.point.col(i).maxCoeff() >= 1))

@@ -7,7 +7,8 @@
 
 namespace spia {
 
-/// Normals of CAD faces at the corners of the triangles that were made of them. Triangles of a file are its faces, numbered as in the soup.
+/// Normals of CAD faces at the corners of the triangles that were made of them. Triangles of a file
+/// are its faces, numbered as in the soup.
 class CornerNormals {
 public:
     CornerNormals(const PolygonSoup& soup, const std::vector<std::array<Eigen::Vector3f, 3>>& normal)
@@ -15,8 +16,9 @@ public:
     {
     }
 
-    /// Of the corner that is nearest to the place, on the side of `own`, the triangle's unit normal. `own` itself where the face has none, or
-    /// is so much askew that the triangle has hardly a side.
+    /// Of the corner that is nearest to the place, on the side of `own`, the triangle's unit
+    /// normal. `own` itself where the face has none, or is so much askew that the triangle has
+    /// hardly a side.
     Eigen::Vector3d at(int triangle, const Eigen::Vector3d& place, const Eigen::Vector3d& own) const;
 
 private:

@@ -20,15 +20,16 @@ bool sick_beyond_a_cut(const DoctorReport& report)
     });
 }
 
-/// The seam of the options, in vertices of the mesh; of copies the first. Of a solid the vertices of its other skin stand for
-/// those opposite to them.
+/// The seam of the options, in vertices of the mesh; of copies the first. Of a solid the vertices
+/// of its other skin stand for those opposite to them.
 SeamOptions in_mesh(SeamOptions seam, const PartFile& part, const PolygonSoup& file)
 {
     const std::vector<int>& source = part.source_vertex;
     const auto opposite = [&](int v) -> std::optional<int> {
         if (!part.solid || v >= file.vertices())
             return std::nullopt;
-        constexpr double mitred = 2; // at a corner of three walls the skins are sqrt(3) times the thickness apart
+        constexpr double mitred = 2; // at a corner of three walls the skins are sqrt(3) times the
+                                     // thickness apart
         Eigen::Index nearest = 0;
         const double distance =
             (part.mesh.position.colwise() - file.position[size_t(v)]).colwise().norm().minCoeff(&nearest);

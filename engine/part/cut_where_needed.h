@@ -5,7 +5,8 @@
 
 namespace spia {
 
-/// Cuts open what is no sheet, or where it was asked for, and turns the findings that would have refused it into repairs.
+/// Cuts open what is no sheet, or where it was asked for, and turns the findings that would have
+/// refused it into repairs.
 /// @param file  the faces as they were read; the seam names vertices of it
 void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file);
 

@@ -44,7 +44,8 @@ std::string recess(const SunkHole& hole)
     return hole.diameter > 0 ? fmt::format("{} {:.4g} mm wide, {:.4g} mm deep", kind, hole.diameter, hole.depth) : kind;
 }
 
-/// "countersink 12 mm wide, 3 mm deep, of a hole of 6 mm, on the inner skin". @param sunk  at one skin or both of one hole
+/// "countersink 12 mm wide, 3 mm deep, of a hole of 6 mm, on the inner skin". @param sunk at one
+/// skin or both of one hole
 std::string words(const std::vector<const SunkHole*>& sunk)
 {
     const SunkHole &first = *sunk.front(), &last = *sunk.back();

@@ -8,7 +8,8 @@ struct PartFile;
 /// What the triangles of a part should be like.
 struct MeshTargets {
     std::optional<double> least_angle = {}; ///< radians, of every triangle
-    std::optional<double> edge_ratio = {};  ///< of the longest to the shortest edge of every triangle, at most
+    std::optional<double> edge_ratio = {};  ///< of the longest to the shortest edge of every
+                                            ///< triangle, at most
 
     bool operator==(const MeshTargets&) const = default;
 };

@@ -19,33 +19,42 @@
 
 namespace spia {
 
-/// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
-/// nodes, both counted from 0 in the order of the deck: `source_face` and `source_vertex` lead to them.
+/// What a part from a solver deck is called there. Its faces are the shells that were chosen, its
+/// vertices their nodes, both counted from 0 in the order of the deck: `source_face` and
+/// `source_vertex` lead to them.
 struct DeckOrigin {
-    std::vector<int> element;                     ///< per face of the file: its index among all shells of the deck
+    std::vector<int> element;                     ///< per face of the file: its index among all
+                                                  ///< shells of the deck
     std::vector<std::int64_t> element_id;         ///< per face of the file
     std::vector<std::int64_t> node_id;            ///< per vertex of the file
-    std::vector<std::array<int, 4>> corner;       ///< per face of the file: vertices of the file; last -1 in a triangle
+    std::vector<std::array<int, 4>> corner;       ///< per face of the file: vertices of the file;
+                                                  ///< last -1 in a triangle
     std::vector<int> part_of;                     ///< per face of the file: index into parts
-    std::vector<Eigen::Vector3d> position;        ///< per vertex of the file, in the unit of the deck
+    std::vector<Eigen::Vector3d> position;        ///< per vertex of the file, in the unit of the
+                                                  ///< deck
     std::int64_t last_node = 0, last_element = 0; ///< greatest ids of the whole deck
     std::vector<DeckPart> parts;                  ///< all of the deck; thicknesses in its unit
-    std::vector<std::string> sets;                ///< names of element sets that can be chosen as well
+    std::vector<std::string> sets;                ///< names of element sets that can be chosen as
+                                                  ///< well
     bool unit_stated = false;                     ///< the deck says its unit of length
     bool copies = false;                          ///< as of Deck
 };
 
-/// What a part from a CAD file comes from. Its "faces of the file" are triangles, made from the CAD faces in their order.
+/// What a part from a CAD file comes from. Its "faces of the file" are triangles, made from the CAD
+/// faces in their order.
 struct CadOrigin {
-    std::vector<int> face;       ///< per face of the file: the CAD face it lies on, from 0 in the order of the file
-    int faces = 0;               ///< CAD faces in the file
-    double deflection = 0;       ///< mm, largest distance between triangle and CAD face that was asked for
-    double sewing_tolerance = 0; ///< mm; 0: nothing had to be sewn
-    bool unit_stated = false;    ///< by the file; a unit given for it is refused
-    CadTree tree = {};           ///< what the file holds
-    std::vector<StatedSurface> surface = {}; ///< per CAD face of the file: the plane or cylinder it lies on
-    StatedCurves curves =
-        {}; ///< lines and circles of the edges; vertices are those of the file, also once it is remeshed
+    std::vector<int> face;                   ///< per face of the file: the CAD face it lies on,
+                                             ///< from 0 in the order of the file
+    int faces = 0;                           ///< CAD faces in the file
+    double deflection = 0;                   ///< mm, largest distance between triangle and CAD face
+                                             ///< that was asked for
+    double sewing_tolerance = 0;             ///< mm; 0: nothing had to be sewn
+    bool unit_stated = false;                ///< by the file; a unit given for it is refused
+    CadTree tree = {};                       ///< what the file holds
+    std::vector<StatedSurface> surface = {}; ///< per CAD face of the file: the plane or cylinder it
+                                             ///< lies on
+    StatedCurves curves = {}; ///< lines and circles of the edges; vertices are those of the file,
+                              ///< also once it is remeshed
 };
 
 /// What a part that is one surface of a solid of sheet comes from.
@@ -55,38 +64,48 @@ struct SolidOrigin {
     double outer_area = 0, inner_area = 0, area = 0; ///< mm2, of both skins and of what was taken
     double rim_area = 0;                             ///< mm2, of the faces across the thickness
     double volume = 0;                               ///< mm3
-    int faces = 0, outer_faces = 0, inner_faces = 0; ///< CAD faces, else faces of the file; all and of the skins
+    int faces = 0, outer_faces = 0, inner_faces = 0; ///< CAD faces, else faces of the file; all and
+                                                     ///< of the skins
     bool open = false;                               ///< faces are missing
     std::vector<Eigen::Matrix3Xd> marks =
-        {}; ///< outlines of marks that were passed over, mm, on the surface that was taken; a closed one ends where it begins
+        {}; ///< outlines of marks that were passed over, mm, on the surface that was taken; a
+            ///< closed one ends where it begins
     SheetSide side = SheetSide::outer;       ///< the skin whose faces the mesh has
-    std::vector<StatedSurface> surface = {}; ///< per face of the file: the cylinder that was measured on it; empty:
-                                             ///< none was, or a CAD file states them
+    std::vector<StatedSurface> surface = {}; ///< per face of the file: the cylinder that was
+                                             ///< measured on it; empty: none was, or a CAD file
+                                             ///< states them
 };
 
 /// What a file holds, and what was done to it.
 struct PartFile {
-    TriMesh mesh;                   ///< mm, of a solid one surface of it; vertices and faces in the order of the file
-    DoctorReport doctor;            ///< faults and repairs; it names vertices and faces as in the file, counted from 0
-    std::vector<int> source_vertex; ///< per vertex of mesh its number in the file; never decreases, and repeats where
-                                    ///< touching fans were separated and along the seam
+    TriMesh mesh;                   ///< mm, of a solid one surface of it; vertices and faces in the
+                                    ///< order of the file
+    DoctorReport doctor;            ///< faults and repairs; it names vertices and faces as in the
+                                    ///< file, counted from 0
+    std::vector<int> source_vertex; ///< per vertex of mesh its number in the file; never decreases,
+                                    ///< and repeats where touching fans were separated and along
+                                    ///< the seam
     std::vector<int> source_face;   ///< per triangle of mesh its face in the file; never decreases
-    std::vector<int> same_as = {};  ///< per vertex of the file the one that stands for it: itself unless it was joined
+    std::vector<int> same_as = {};  ///< per vertex of the file the one that stands for it: itself
+                                    ///< unless it was joined
     int file_vertices = 0;          ///< STL: different points, in the order of their first corner
     int file_faces = 0;
     std::string format; ///< e.g. "STL (binary)"
     LengthUnit unit = LengthUnit::mm;
     std::vector<std::string> notes; ///< what was left out, or deserves a word
     std::vector<std::string> doubts =
-        {}; ///< those of the notes after which some of the part may be missing, or its mesh is not as was asked for
-    std::vector<std::vector<int>> seam = {}; ///< rows of vertices of the file along which the part was cut open
+        {}; ///< those of the notes after which some of the part may be missing, or its mesh is not
+            ///< as was asked for
+    std::vector<std::vector<int>> seam = {}; ///< rows of vertices of the file along which the part
+                                             ///< was cut open
     double seam_length = 0;                  ///< mm
     std::optional<double> thickness_mm = {}; ///< of the sheet: decks say it, in solids it is found
     std::string material = {};               ///< what the file calls it; empty: nothing
     std::optional<DeckOrigin> deck = {};     ///< of solver decks
     std::optional<CadOrigin> cad = {};       ///< of CAD files
     std::optional<SolidOrigin> solid = {};   ///< of solids of sheet
-    std::optional<Remeshed> remeshed = {};   ///< if it was asked for: mesh, source_vertex and source_face are new
+    std::optional<Remeshed> remeshed = {};   ///< if it was asked for: mesh, source_vertex and
+                                             ///< source_face are new
 };
 
 /// A note of something that may not be as it was meant.

@@ -13,7 +13,8 @@ void note_size(PartFile& part, bool unit_given)
 {
     if (part.mesh.vertices() == 0)
         return;
-    constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's plate
+    constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's
+                                                // plate
     const double diagonal = bounding_diagonal(part.mesh);
     const bool unit_known = unit_given || (part.cad && part.cad->unit_stated) || (part.deck && part.deck->unit_stated);
     if (!unit_known && (diagonal < small || diagonal > large))

@@ -8,7 +8,8 @@
 namespace spia {
 
 /// Examines and cuts what the file holds; the part has its format, unit and notes already.
-/// @param solid  whether the file says that it is one; @param normals  of CAD faces; nullptr: unknown
+/// @param solid  whether the file says that it is one; @param normals of CAD faces; nullptr:
+/// unknown
 void prepare_part(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, bool weld, bool solid,
                   const CornerNormals* normals, const Progress& progress);
 

@@ -15,7 +15,8 @@ namespace spia {
 void remesh_needles(PartFile& part, std::optional<double> deflection, const Progress& progress)
 {
     constexpr double needle = 15 * std::numbers::pi / 180; // of one triangle in a hundred
-    constexpr double unrolls = 0.02; // bent parts measured have 0 to rounding, the flattest of the drawn ones 0.9
+    constexpr double unrolls = 0.02; // bent parts measured have 0 to rounding, the flattest of the
+                                     // drawn ones 0.9
     if (triangle_quality(part.mesh).least_angle_of_99 > needle)
         return;
     if (curvature_off_bends(part) < unrolls) {
@@ -26,7 +27,8 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
     }
     try {
         RemeshOptions remesh;
-        if (deflection) // the mesh is to be as close again; not coarser than by default, nor finer than can be
+        if (deflection) // the mesh is to be as close again; not coarser than by default, nor finer
+                        // than can be
             remesh.tolerance =
                 std::clamp(*deflection, 1e-6 * bounding_diagonal(part.mesh), 1e-3 * bounding_diagonal(part.mesh));
         remesh_part(part, remesh, progress);

@@ -6,8 +6,9 @@
 
 namespace spia {
 
-/// Needles on CAD faces. On a part that unrolls they are strips along its straight lines, as they should be. On others they are chords that
-/// differ from triangle to triangle, which is taken for strain: they go unasked, or a note says why not.
+/// Needles on CAD faces. On a part that unrolls they are strips along its straight lines, as they
+/// should be. On others they are chords that differ from triangle to triangle, which is taken for
+/// strain: they go unasked, or a note says why not.
 /// @param deflection  mm, of the triangles from the CAD faces, if it was asked for
 void remesh_needles(PartFile& part, std::optional<double> deflection, const Progress& progress);
 

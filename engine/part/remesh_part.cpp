@@ -44,7 +44,8 @@ const std::vector<int>& faces_as_read(const PartFile& part)
     return numbered_as_read(part) ? part.remeshed->original_face : part.source_face;
 }
 
-/// Bends that are sharper than the usual tolerance would be cut off, and no bend over a cylinder would be found any more.
+/// Bends that are sharper than the usual tolerance would be cut off, and no bend over a cylinder
+/// would be found any more.
 /// @returns mm; nothing if the usual one does
 std::optional<double> tolerance_for_bends(const PartFile& part)
 {
@@ -53,7 +54,8 @@ std::optional<double> tolerance_for_bends(const PartFile& part)
     std::vector<StatedSurface> surface;
     for (const int f : part.source_face)
         surface.push_back(part.cad->surface[size_t(part.cad->face[size_t(f)])]);
-    constexpr double of_radius = 0.03, usual = 1e-3, least = 1e-5; // chords of 20 degrees; of the diagonal
+    // chords of 20 degrees; of the diagonal
+    constexpr double of_radius = 0.03, usual = 1e-3, least = 1e-5;
     const double diagonal = bounding_diagonal(part.mesh);
     double tolerance = usual * diagonal;
     const FreeEnds ends(part.mesh);
@@ -74,7 +76,8 @@ RemeshResult remeshed_with_bends(const PartFile& part, const RemeshOptions& opti
     fine.tolerance = finer;
     try {
         return remesh(part.mesh, fine, sheet, progress.part(0, 0.5));
-    } catch (const InputError&) { // what is told of it has the tolerance; the bends are told as far as they are found
+    } catch (const InputError&) { // what is told of it has the tolerance; the bends are told as far
+                                  // as they are found
         return remesh(part.mesh, options, sheet, progress.part(0.5, 1));
     }
 }
@@ -105,7 +108,8 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
     if (part.cad)
         number_anew(part);
     std::erase_if(part.doctor.findings,
-                  [](const Finding& finding) { return finding.fault == Fault::sliver; }); // of others
+                  // of others
+                  [](const Finding& finding) { return finding.fault == Fault::sliver; });
     part.notes.push_back(describe(remeshed));
     constexpr double sliver = std::numbers::pi / 180; // as the doctor has it
     int slivers = 0;

@@ -33,7 +33,8 @@ enum class Claim {
     stated    ///< by the file, by the user, or it is so thin that nothing else can be meant
 };
 
-/// Shells of a section are sheet themselves; those that a mesher made of a solid's surface have none.
+/// Shells of a section are sheet themselves; those that a mesher made of a solid's surface have
+/// none.
 bool shells_have_a_thickness(const DeckOrigin& deck)
 {
     return std::any_of(deck.part_of.begin(), deck.part_of.end(),
@@ -136,7 +137,8 @@ void replace_mesh(PartFile& part, const SkinMesh& skin)
     const auto vertex_in_file = [&](int v) { return part.source_vertex[size_t(skin.source_vertex[size_t(v)])]; };
     const auto face_in_file = [&](int f) { return part.source_face[size_t(skin.source_face[size_t(f)])]; };
     std::erase_if(part.doctor.findings, [](const Finding& finding) {
-        return of_the_surface(finding) || finding.fault == Fault::sliver; // of the other skin and the faces across, too
+        // of the other skin and the faces across, too
+        return of_the_surface(finding) || finding.fault == Fault::sliver;
     });
     for (Finding& finding : examination.report.findings) {
         const bool vertices = counts_vertices(finding.fault);
@@ -173,7 +175,8 @@ void put_back(PartFile& part, AsMarked& marked)
 }
 
 /// Measures the solid; its shallow marks are taken out of the part before.
-/// @param marked, found, outlines  set to the part as it was, what was done to it, and of the marks, if it had any
+/// @param marked, found, outlines set to the part as it was, what was done to it, and of the marks,
+/// if it had any
 /// @throws NotASheet
 ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::optional<AsMarked>& marked,
                             std::optional<Finding>& found, std::vector<MarkOutline>& outlines, const Progress& progress)
@@ -204,7 +207,8 @@ void note_hollow(PartFile& part, const std::string& why)
                                          why));
 }
 
-/// @returns whether it is taken for a solid of sheet; says so where it may be the other thing as well
+/// @returns whether it is taken for a solid of sheet; says so where it may be the other thing as
+/// well
 bool decide(PartFile& part, const ThinSolid& sheet)
 {
     const ClosedSurface closed = sheet_or_hollow(sheet);
@@ -220,7 +224,8 @@ bool decide(PartFile& part, const ThinSolid& sheet)
     return closed != ClosedSurface::perhaps_hollow;
 }
 
-/// The surface that is wanted. Where none was asked for and there is no middle one the outer skin is better than nothing, and a doubt.
+/// The surface that is wanted. Where none was asked for and there is no middle one the outer skin
+/// is better than nothing, and a doubt.
 /// @param wanted  set to the one that is taken
 SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
                      const std::vector<OpenSink>& open, Skin& wanted, bool asked, const ThinSolidOptions& units)
@@ -299,7 +304,8 @@ void note_skin(PartFile& part, bool uneven_told)
                                      "surface of it)",
                                      counted(solid.faces, "face", "faces"),
                                      solid.open ? ", some of which are missing" : "", what, solid.thickness));
-    constexpr double uneven = 1.15; // a bend with one radius on both sides is up to 1.41 times as thick
+    constexpr double uneven = 1.15; // a bend with one radius on both sides is up to 1.41 times as
+                                    // thick
     if (part.cad && !uneven_told && solid.most > uneven * solid.thickness)
         doubt(part,
               fmt::format(

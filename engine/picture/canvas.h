@@ -7,8 +7,9 @@
 
 namespace spia {
 
-/// A white picture with a depth per pixel. x runs right, y down, both in pixels from the upper left corner; of two
-/// points on a pixel the one of greater depth is seen. Colours are sRGB, 0..1. Drawn twice as fine as it is shown.
+/// A white picture with a depth per pixel. x runs right, y down, both in pixels from the upper left
+/// corner; of two points on a pixel the one of greater depth is seen. Colours are sRGB, 0..1. Drawn
+/// twice as fine as it is shown.
 class Canvas {
 public:
     Canvas(int width, int height);
@@ -16,8 +17,8 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// @param corner columns x, y, depth; @param colour of the barycentric coordinates of a pixel in the
-    /// triangle
+    /// @param corner columns x, y, depth; @param colour of the barycentric coordinates of a pixel
+    /// in the triangle
     template <class Colour> void triangle(const Eigen::Matrix3d& corner, const Colour& colour);
 
     struct Pen {
@@ -25,7 +26,8 @@ public:
         double width = 1; ///< pixels
         double opacity = 1;
         bool hidden = true; ///< nearer triangles cover it
-        double lift = 0;    ///< towards the viewer, so that a line on a surface is not half covered by it
+        double lift = 0;    ///< towards the viewer, so that a line on a surface is not half covered
+                            ///< by it
     };
     /// With round ends; from a to a it is a dot. a, b: x, y, depth
     void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Pen& pen);
@@ -33,8 +35,8 @@ public:
     void rectangle(double left, double top, double right, double bottom, const Eigen::Vector3d& colour);
 
     enum class Align { left, centre, right };
-    /// @param height of a capital in pixels; x, y: where the base line is, at the side named by align.
-    /// Characters that the stroke font does not have are left blank.
+    /// @param height of a capital in pixels; x, y: where the base line is, at the side named by
+    /// align. Characters that the stroke font does not have are left blank.
     void text(std::string_view words, double x, double y, double height, const Eigen::Vector3d& colour,
               Align align = Align::left);
 

@@ -25,8 +25,8 @@ constexpr double margin = 24, head = 78;
 const Vector3d ink(0.13, 0.16, 0.2), pale_ink(0.42, 0.46, 0.5), quad_colour(0.9, 0.92, 0.94),
     surface_colour(0.62, 0.75, 0.88), net_colour(0.78, 0.18, 0.12);
 
-/// The direction in which points spread widest across `up`; on a round spread, the coordinate axis nearest to
-/// that plane.
+/// The direction in which points spread widest across `up`; on a round spread, the coordinate axis
+/// nearest to that plane.
 Vector3d long_axis(const Matrix3Xd& points, const Vector3d& up)
 {
     const Matrix3Xd centred = points.colwise() - points.rowwise().mean();
@@ -87,8 +87,8 @@ struct Panel {
     }
 };
 
-/// A soft light from the upper left and one from the viewer; both sides of the sheet are lit, the back is a
-/// little darker.
+/// A soft light from the upper left and one from the viewer; both sides of the sheet are lit, the
+/// back is a little darker.
 double brightness(const Vector3d& seen_normal)
 {
     const Vector3d light = Vector3d(-0.45, 0.6, 0.66).normalized();
@@ -130,7 +130,8 @@ void draw_light_edges(const Panel& panel, const TriMesh& mesh, double lift)
     for (int f = 0; f < mesh.triangles(); ++f)
         for (int k = 0; k < 3; ++k) {
             const int a = mesh.triangle(k, f), b = mesh.triangle((k + 1) % 3, f);
-            if (a < b) // the face on the other side has it from b to a; those of the boundary are drawn dark
+            if (a < b) // the face on the other side has it from b to a; those of the boundary are
+                       // drawn dark
                 panel.canvas.line(corner.col(a), corner.col(b),
                                   {.colour = {1, 1, 1}, .width = 0.7, .opacity = 0.3, .lift = lift});
         }
@@ -141,7 +142,8 @@ int stride(int count, int most) { return std::max(1, (count + most - 1) / most);
 
 std::string strided(int step) { return step > 1 ? fmt::format(", every {}. line", step) : ""; }
 
-/// The lines of a structured net of count_u by count_v points, every step-th and the last one of each family.
+/// The lines of a structured net of count_u by count_v points, every step-th and the last one of
+/// each family.
 void draw_net(const Panel& panel, const Matrix3Xd& points, int count_u, int count_v, int step, const Canvas::Pen& pen)
 {
     const Matrix3Xd p = panel.on_canvas(points);
@@ -171,7 +173,8 @@ void draw_sides(const Panel& panel, const NurbsSurface& patch, double lift)
         }
 }
 
-/// Round values (1, 2 or 5 times a power of ten apart) within the range, six to twelve of them as a rule.
+/// Round values (1, 2 or 5 times a power of ten apart) within the range, six to twelve of them as a
+/// rule.
 std::vector<double> round_values(const ColourRange& range)
 {
     const double raw = (range.greatest - range.least) / 7;
@@ -214,8 +217,8 @@ private:
 /// Rounding errors of strain (see noise() of the report) are worth no colour and no contour.
 constexpr double least_half_width = 1e-4;
 
-/// From the first to the last of a hundred equal shares: single extreme vertices must not take the colours from the
-/// rest.
+/// From the first to the last of a hundred equal shares: single extreme vertices must not take the
+/// colours from the rest.
 ColourRange central_range(const Eigen::VectorXd& values)
 {
     std::vector<double> sorted(values.begin(), values.end());
@@ -284,7 +287,8 @@ private:
     {
         TriMesh flat{Matrix3Xd::Zero(3, scene_.part->vertices()), scene_.part->triangle};
         flat.position.topRows(2) = scene_.blank->position;
-        const Panel panel(canvas_, panels_++, Matrix3d::Identity(), flat.position); // as it lies in the DXF
+        // as it lies in the DXF
+        const Panel panel(canvas_, panels_++, Matrix3d::Identity(), flat.position);
         const Matrix3Xd corner = panel.on_canvas(flat.position);
         for (int f = 0; f < flat.triangles(); ++f) {
             const Eigen::Vector3i t = flat.triangle.col(f);
@@ -374,7 +378,8 @@ private:
                      Canvas::Align::right);
     }
 
-    /// The sign that there are values beyond the end of the legend: a triangle of that end's colour.
+    /// The sign that there are values beyond the end of the legend: a triangle of that end's
+    /// colour.
     void draw_more(double x, double length, double top, double bottom, double end)
     {
         Matrix3d corner;

@@ -9,7 +9,8 @@ constexpr int base_line = 2; ///< y of the base line on the grid; descenders rea
 constexpr double letter_space = 1.9;
 constexpr double word_space = 3.2;
 
-/// Polylines divided by blanks, each point two digits x and y on a grid of 0..6 by 0..8; a lone point is a dot.
+/// Polylines divided by blanks, each point two digits x and y on a grid of 0..6 by 0..8; a lone
+/// point is a dot.
 std::string_view strokes(char letter)
 {
     switch (letter) {
@@ -71,7 +72,8 @@ std::string_view strokes(char letter)
 double right_edge(std::string_view glyph)
 {
     double x = 0;
-    for (size_t i = 0; i < glyph.size(); ++i) // the point after a blank begins anew; x and y take turns
+    for (size_t i = 0; i < glyph.size(); ++i) // the point after a blank begins anew; x and y take
+                                              // turns
         if (glyph[i] != ' ') {
             x = std::max(x, double(glyph[i] - '0'));
             ++i;

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-/// A small font of straight strokes, so that pictures need no font file. It has the digits, a to z, and of the rest
-/// what our pictures say.
+/// A small font of straight strokes, so that pictures need no font file. It has the digits, a to z,
+/// and of the rest what our pictures say.
 namespace spia::stroke_font {
 
 constexpr double capital_height = 6; ///< in units of the grid on which the letters are drawn

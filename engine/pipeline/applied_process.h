@@ -15,7 +15,8 @@ struct AppliedContact {
     double pressure_MPa; ///< as given, or the force over the area seen along the stamping direction
     double friction;     ///< coefficient of each side
     int sides;
-    double friction_force_N; ///< sides * friction * pressure * area: the most that rubbing can hold back
+    double friction_force_N; ///< sides * friction * pressure * area: the most that rubbing can hold
+                             ///< back
 };
 
 struct AppliedBead {
@@ -44,8 +45,8 @@ struct AppliedProcess {
     double edge_restraint = 0;  ///< share of the lock force
     double lock_force_N_mm = 0; ///< of the base sheet
     double held_mm = 0;         ///< length of the edge that is held: the outer one, without seams
-    double upright_mm =
-        0; ///< of it where the sheet stands within 6 degrees of the stamping direction: slip is not seen there
+    double upright_mm = 0; ///< of it where the sheet stands within 6 degrees of the stamping
+                           ///< direction: slip is not seen there
     std::vector<AppliedPilot> pilots;
     std::vector<AppliedPiece> tailored;
     std::optional<Eigen::Vector3d> rolling;
@@ -54,7 +55,8 @@ struct AppliedProcess {
 /// @param session solved at least
 AppliedProcess applied_process(const Session& session);
 
-/// A short line for each: "contact binder: 2.5 MPa on 12 faces, friction 0.12 on 2 sides, holds up to 1200 N".
+/// A short line for each: "contact binder: 2.5 MPa on 12 faces, friction 0.12 on 2 sides, holds up
+/// to 1200 N".
 std::vector<std::string> describe(const AppliedProcess& process);
 
 } // namespace spia

@@ -24,9 +24,11 @@ std::vector<std::string> all_notes(const BendTable& table)
 std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& table, bool k_is_given)
 {
     std::vector<std::string> doubts;
-    // The lengths of a sheet that is given as triangles are those of its triangles unless arcs are asked for.
+    // The lengths of a sheet that is given as triangles are those of its triangles unless arcs are
+    // asked for.
     const bool as_triangles = !part.cad && !part.solid && !k_is_given;
-    std::map<std::pair<std::string, std::string>, std::vector<size_t>> kept; // by why and the way out
+    // by why and the way out
+    std::map<std::pair<std::string, std::string>, std::vector<size_t>> kept;
     for (size_t b = 0; b < table.bends.size() && !as_triangles; ++b)
         if (const SheetBend& bend = table.bends[b]; !bend.laid)
             kept[{bend.why_not, bend.way_out}].push_back(b);

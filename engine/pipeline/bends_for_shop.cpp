@@ -40,7 +40,8 @@ BendMap bends_for_shop(const PartFile& part)
         return find_bends(part.mesh, limits);
     limits.sharp = std::numbers::pi / 180; // a press brake is set no finer
     BendMap map = find_bends(part.mesh, limits);
-    std::erase_if(map.bends, [&](const Bend& bend) { // those without faces come last: the others keep their labels
+    std::erase_if(map.bends, [&](const Bend& bend) { // those without faces come last: the others
+                                                     // keep their labels
         if (bend.faces > 0 || bend.b < 0 || std::abs(bend.angle) > sharp)
             return false;
         const auto a = plane_of(part, map, bend.a), b = plane_of(part, map, bend.b);

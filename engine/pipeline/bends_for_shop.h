@@ -4,8 +4,9 @@
 
 namespace spia {
 
-/// The bends that a shop is told of. Where a CAD file states that all faces are planes and cylinders, an edge between two planes is a fold,
-/// however little it turns, if the planes turn by as much: triangles that a rim tilts do not. Of other parts it may be an edge between chords.
+/// The bends that a shop is told of. Where a CAD file states that all faces are planes and
+/// cylinders, an edge between two planes is a fold, however little it turns, if the planes turn by
+/// as much: triangles that a rim tilts do not. Of other parts it may be an edge between chords.
 BendMap bends_for_shop(const PartFile& part);
 
 } // namespace spia

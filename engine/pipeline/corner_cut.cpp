@@ -19,7 +19,8 @@ StrainFigures figures(const TriMesh& part, const SheetFields& face)
     return {face.strain_equivalent.maxCoeff(), face.strain_equivalent.dot(twice_area) / twice_area.sum()};
 }
 
-/// The part with both sides of its seam joined again. @param number  per vertex of `cut` that in the file
+/// The part with both sides of its seam joined again. @param number per vertex of `cut` that in the
+/// file
 TriMesh joined(const TriMesh& cut, const std::vector<int>& number, const std::vector<std::vector<int>>& seam)
 {
     std::set<int> on_seam;

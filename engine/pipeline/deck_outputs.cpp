@@ -58,8 +58,8 @@ void require_deck_ids(std::span<const std::string> formats, const PartFile& part
     });
     if (!keyword)
         return;
-    constexpr int widest =
-        10; // of keyword files, even with I10=Y; copies of nodes along a seam get ids above all others
+    constexpr int widest = 10; // of keyword files, even with I10=Y; copies of nodes along a seam
+                               // get ids above all others
     fixed_number(shells.last_node + std::int64_t(shells.mesh.node.size()), widest);
     fixed_number(shells.last_element + std::int64_t(shells.mesh.element.size()), widest);
 }
@@ -71,7 +71,8 @@ std::vector<std::filesystem::path> write_deck_files(const std::filesystem::path&
     std::vector<std::filesystem::path> files;
     if (std::none_of(formats.begin(), formats.end(), is_deck_format))
         return files;
-    if (part.deck && part.remeshed) { // the elements of the deck, not ours, are what another program knows
+    if (part.deck && part.remeshed) { // the elements of the deck, not ours, are what another
+                                      // program knows
         const OriginalResults original = on_original(part, blank, face);
         return write_deck_files(folder, name, formats, original.part, original.blank, original.face, unit);
     }

@@ -12,9 +12,10 @@ struct DeformationWish {
     bool around = false; ///< no box is given: the lattice is laid around the surface
 };
 
-/// A JSON file of schema spia.deformation/1: "moves" [{patch (from 0, may be left out), at [i, j], by [x, y, z]}, ...] of control points, and
-/// "lattice" {count [l, m, n], degree [p, q, r], origin [x, y, z], edges [[x, y, z], ...], moves [{at [i, j, k], by [x, y, z]}, ...]}; without origin and
-/// edges around the surface; lengths in mm.
+/// A JSON file of schema spia.deformation/1: "moves" [{patch (from 0, may be left out), at [i, j],
+/// by [x, y, z]}, ...] of control points, and "lattice" {count [l, m, n], degree [p, q, r], origin
+/// [x, y, z], edges [[x, y, z], ...], moves [{at [i, j, k], by [x, y, z]}, ...]}; without origin
+/// and edges around the surface; lengths in mm.
 /// @throws InputError naming the place in the file that cannot be taken
 DeformationWish read_deformation(const std::filesystem::path& file);
 

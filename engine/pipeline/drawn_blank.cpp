@@ -28,9 +28,9 @@ double thickness_at(const BendMap& map, size_t bend, const SheetFields& face)
     return 0;
 }
 
-/// Puts lines onto the straight one along all of them, which a hole or a notch parts, each from its first point to its last: what a press
-/// brake makes is straight. On a mesh whose edges do not run along a bend its lines waver by about one of them, as the band of its faces
-/// does.
+/// Puts lines onto the straight one along all of them, which a hole or a notch parts, each from its
+/// first point to its last: what a press brake makes is straight. On a mesh whose edges do not run
+/// along a bend its lines waver by about one of them, as the band of its faces does.
 /// @returns false, and leaves them, if they are not straight but for that
 bool straighten(const Bend& bend, std::vector<Eigen::Matrix2Xd>& lines)
 {
@@ -102,7 +102,8 @@ DrawnBend drawn_bend(const SheetBend& bend, std::string name)
     return drawn;
 }
 
-/// Per bend of the map the one of the table that has most of its faces, else -1; and which of the table are nobody's.
+/// Per bend of the map the one of the table that has most of its faces, else -1; and which of the
+/// table are nobody's.
 std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vector<char>& taken)
 {
     std::vector<int> result(map.bends.size(), -1);
@@ -119,7 +120,8 @@ std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vecto
             continue;
         int& bend = result[size_t(most->first) - map.regions.size()];
         if (bend >= 0)
-            continue; // two cylinders beside each other, which the map takes for one bend: the second is drawn by itself
+            continue; // two cylinders beside each other, which the map takes for one bend: the
+                      // second is drawn by itself
         bend = int(j);
         taken[j] = 1;
     }
@@ -143,12 +145,14 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
     const std::vector<char> part_of_known =
         table ? parts_of_table(part.mesh, map, *table) : std::vector<char>(map.bends.size(), 0);
     const FreeEnds ends(part.mesh);
-    // A shop reads the drawing beside the table: bends have the numbers of its rows, others those after them.
+    // A shop reads the drawing beside the table: bends have the numbers of its rows, others those
+    // after them.
     const bool as_in_table = straight_only && table;
     size_t others = table ? table->bends.size() : 0;
     for (size_t k = 0; k < map.bends.size(); ++k) {
         const Bend& bend = map.bends[k];
-        constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that the rim of a hole tilts turn by less
+        // triangles that the rim of a hole tilts turn by less
+        constexpr double least = 0.5 * std::numbers::pi / 180;
         if (known[k] < 0 && (part_of_known[k] || (table && std::abs(bend.angle) < least)))
             continue;
         if (straight_only && known[k] < 0 && ((table && bend.faces == 0) || !ends.of(map, k, blank.position)))
@@ -162,7 +166,8 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
         else {
             drawn.name = name;
             drawn.angle = std::abs(bend.angle);
-            const bool bulges = bend.angle > 0; // the outer side, from which the blank is seen: the legs go down
+            const bool bulges = bend.angle > 0; // the outer side, from which the blank is seen: the
+                                                // legs go down
             drawn.up = !bulges;
             drawn.k.reset();
             if (bend.faces > 0) {

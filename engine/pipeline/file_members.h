@@ -11,7 +11,8 @@
 #include "engine/core/json_file.h"
 #include "engine/part/part_file.h"
 
-/// Members of files that people write: every fault is told with its place, and a member that is not known is one.
+/// Members of files that people write: every fault is told with its place, and a member that is not
+/// known is one.
 namespace spia::members {
 
 void require_object(const Json& json, const Place& place, std::initializer_list<std::string_view> members);
@@ -42,7 +43,8 @@ std::vector<int> faces_in(const Json& json, const Place& place, const PartFile& 
 /// What an entry without a name is called: "line 3" of "lines".
 std::string entry_name(std::string_view list, size_t index);
 
-/// Reads the entries of a list member, each at its place; without a name an entry is called as its list and number.
+/// Reads the entries of a list member, each at its place; without a name an entry is called as its
+/// list and number.
 template <class Read> void each_of(const Json& json, const Place& place, std::string_view name, const Read& read)
 {
     const Json* list = find(json, place, name, false);

@@ -10,12 +10,13 @@
 namespace spia {
 namespace {
 
-constexpr double of_part =
-    1e-6; // as write_dxf() has it for what is exact: places of CAD files and their blanks are as good
+constexpr double of_part = 1e-6; // as write_dxf() has it for what is exact: places of CAD files and
+                                 // their blanks are as good
 
 std::uint64_t key(int from, int to) { return std::uint64_t(from) << 32 | std::uint32_t(to); }
 
-/// Where the places of some triangles of a plane lie in the blank, by least squares; none where one is not as it was.
+/// Where the places of some triangles of a plane lie in the blank, by least squares; none where one
+/// is not as it was.
 std::optional<FlatZone> zone_of(const TriMesh& mesh, const Blank& blank, const std::vector<int>& faces,
                                 const Eigen::Vector3d& normal, double within)
 {

@@ -9,7 +9,8 @@
 
 namespace spia {
 
-/// A plane CAD face of a part, or the part of a middle surface that stands for it, and where it lies in the blank.
+/// A plane CAD face of a part, or the part of a middle surface that stands for it, and where it
+/// lies in the blank.
 struct FlatZone {
     Eigen::Vector3d normal;           ///< unit
     double offset = 0;                ///< mm: places have normal.dot(place) = offset
@@ -40,7 +41,8 @@ public:
 private:
     std::vector<int> zone_; ///< per triangle the CAD face, -1: none
     std::map<int, FlatZone> of_face_;
-    std::unordered_map<std::uint64_t, int> beside_; ///< a triangle by its directed edges at the border
+    std::unordered_map<std::uint64_t, int> beside_; ///< a triangle by its directed edges at the
+                                                    ///< border
 };
 
 } // namespace spia

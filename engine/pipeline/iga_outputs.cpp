@@ -16,8 +16,9 @@ namespace {
 
 constexpr const char* field_names[] = {"thickness", "plastic_strain"};
 
-/// Where on the part the lines u[i], v[j] of the surface's data meet: nodes of the grid; of a fit within a tolerance those of its
-/// finer chart, or what the surface is nearest to where its parameters are no places of the blank any more.
+/// Where on the part the lines u[i], v[j] of the surface's data meet: nodes of the grid; of a fit
+/// within a tolerance those of its finer chart, or what the surface is nearest to where its
+/// parameters are no places of the blank any more.
 std::vector<MeshPoint> places_of_data(const Session& session)
 {
     const InterpolateResult& fitted = session.surface->result;

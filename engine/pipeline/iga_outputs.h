@@ -9,15 +9,18 @@
 
 namespace spia {
 
-/// Formats of isogeometric analysis, by the names the command line uses: gismo, mfem, geopdes, iga-k (LS-DYNA).
+/// Formats of isogeometric analysis, by the names the command line uses: gismo, mfem, geopdes,
+/// iga-k (LS-DYNA).
 const std::vector<std::string>& iga_formats();
 bool is_iga_format(const std::string& format);
 
-/// gismo NAME-gismo.xml with NAME-gismo-thickness.xml and -plastic_strain.xml; mfem NAME-mfem.mesh with -thickness.gf and -plastic_strain.gf; geopdes NAME-geopdes.txt
-/// and iga-k NAME-iga.k, which have no fields. @pre is_iga_format()
+/// gismo NAME-gismo.xml with NAME-gismo-thickness.xml and -plastic_strain.xml; mfem NAME-mfem.mesh
+/// with -thickness.gf and -plastic_strain.gf; geopdes NAME-geopdes.txt and iga-k NAME-iga.k, which
+/// have no fields. @pre is_iga_format()
 std::vector<std::string> iga_file_names(const std::string& format, const std::string& name);
 
-/// Thickness after forming and plastic strain on the patches, from their values at the nodes of the lifted grid. @pre session.surface
+/// Thickness after forming and plastic strain on the patches, from their values at the nodes of the
+/// lifted grid. @pre session.surface
 std::vector<PatchField> surface_fields(const Session& session);
 
 /// Writes the files of one such format.

@@ -47,7 +47,8 @@ std::vector<SheetLine> lines_of_json(const std::filesystem::path& file, LengthUn
         std::vector<Eigen::Vector3d> points;
         each_of(each, place, "points",
                 [&](const Json& p, const Place& at, const std::string&) { points.push_back(mm * point(p, at)); });
-        points.erase(std::unique(points.begin(), points.end()), points.end()); // points that stand twice are one
+        // points that stand twice are one
+        points.erase(std::unique(points.begin(), points.end()), points.end());
         bool round = closed && closed->get<bool>();
         if (points.size() > 2 && points.front() == points.back()) {
             round = true;

@@ -10,7 +10,8 @@
 
 namespace spia {
 
-/// Reads lines by the ending of the file: DXF (read_dxf()) or JSON (the form is documented in engine/pipeline/README.md).
+/// Reads lines by the ending of the file: DXF (read_dxf()) or JSON (the form is documented in
+/// engine/pipeline/README.md).
 /// @param otherwise the unit of a file that names none
 /// @throws InputError naming file, place and fault; also if the file has no line
 DxfLines read_line_file(const std::filesystem::path& file, LengthUnit otherwise = LengthUnit::mm);

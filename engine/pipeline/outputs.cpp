@@ -41,7 +41,8 @@ bool has_content(const std::string& format, const Session& session, const Output
            ((glb.surface || glb.control_net) && session.surface);
 }
 
-/// @throws InputError if the format is unknown, the name is none, or nothing is chosen of the format
+/// @throws InputError if the format is unknown, the name is none, or nothing is chosen of the
+/// format
 std::vector<std::string> file_names(const std::string& format, const Session& session, const OutputOptions& options)
 {
     if (std::find(output_formats().begin(), output_formats().end(), format) == output_formats().end())
@@ -70,7 +71,8 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
     return {file_stem(session, options) + "." + format};
 }
 
-/// Also the straight bends of a bracket; what a drawn part has in their place is no matter for a press brake.
+/// Also the straight bends of a bracket; what a drawn part has in their place is no matter for a
+/// press brake.
 BlankDrawing drawing_for_shop(const Session& session)
 {
     return drawn_blank(*session.part, bends_for_shop(*session.part), session.blank->blank, session.blank->face, true,
@@ -139,7 +141,8 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
         require_deck_ids(formats, *session.part);
     std::vector<fs::path> files;
     for (const std::string& format : formats)
-        for (const std::string& file : file_names(format, session, options)) // also what has no surface yet
+        // also what has no surface yet
+        for (const std::string& file : file_names(format, session, options))
             files.push_back(folder / file);
     for (const fs::path& other : others) {
         if (other.empty())

@@ -28,8 +28,8 @@ SheetLayers layers_of(const PartFile& part, double thickness, const std::optiona
     return layers;
 }
 
-/// Zones on the cylinders that were measured on both skins of a solid; of those that were fitted to its middle surface the rest, as a bend
-/// without an inner radius.
+/// Zones on the cylinders that were measured on both skins of a solid; of those that were fitted to
+/// its middle surface the rest, as a bend without an inner radius.
 std::vector<BendZone> with_measured(const PartFile& part, std::vector<BendZone> fitted)
 {
     std::vector<StatedSurface> surface;
@@ -45,7 +45,8 @@ std::vector<BendZone> with_measured(const PartFile& part, std::vector<BendZone> 
     const auto beside = [&](int f) {
         return std::ranges::any_of(part.mesh.triangle.col(f), [&](int v) { return known[size_t(v)] != 0; });
     };
-    constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that a rim tilts turn by less
+    constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that a rim tilts turn by
+                                                           // less
     for (BendZone& zone : fitted)
         if (zone.to - zone.from > least && std::ranges::none_of(zone.face, beside))
             zones.push_back(std::move(zone));
@@ -69,8 +70,8 @@ std::vector<BendZone> zones_of(const PartFile& part)
 NeutralFibre part_bends(const PartFile& part, double thickness, const std::optional<KFactor>& k)
 {
     NeutralFibre fibre = neutral_fibre(part.mesh, zones_of(part), layers_of(part, thickness, k));
-    // A sheet that is given as triangles is these triangles, unless its bends are asked for. Of solids and CAD faces they are ours or
-    // stand for arcs.
+    // A sheet that is given as triangles is these triangles, unless its bends are asked for. Of
+    // solids and CAD faces they are ours or stand for arcs.
     if (!k && !part.cad && !part.solid)
         keep_triangles(fibre, "the mesh has them; a K factor (--k-factor, also 0.5) lays arcs in their place",
                        "give a K factor (--k-factor)");
@@ -88,7 +89,8 @@ void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& 
                            "unfold it in one step, or in steps that only bend");
         else {
             Eigen::Matrix2Xd& position = run.blank->position;
-            // Straight as before, from (0, 0) on; the blank of steps has the rolling direction along x.
+            // Straight as before, from (0, 0) on; the blank of steps has the rolling direction
+            // along x.
             const auto rolling =
                 options.process.rolling ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
             position =

@@ -7,12 +7,14 @@
 
 namespace spia {
 
-/// The bends of a part and their neutral fibre: radii of CAD cylinders where the file has them, else of circles through the vertices.
+/// The bends of a part and their neutral fibre: radii of CAD cylinders where the file has them,
+/// else of circles through the vertices.
 /// @param thickness  mm, of the sheet; of a solid its own counts
 /// @throws InputError  a K factor for a part of which a skin was taken
 NeutralFibre part_bends(const PartFile& part, double thickness, const std::optional<KFactor>& k);
 
-/// Gives the blank of a run the lengths of the neutral fibre, if its steps only bend the sheet; else the table says that it has them not.
+/// Gives the blank of a run the lengths of the neutral fibre, if its steps only bend the sheet;
+/// else the table says that it has them not.
 void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& fibre, UnfoldRun& run,
               const Progress& progress = {});
 

@@ -32,7 +32,8 @@ std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const 
             if (const int j = at[size_t(v)]; j >= 0)
                 beside[size_t(k)] = std::max(beside[size_t(k)], size[size_t(j)]);
     }
-    // A sharp bend has no faces: it lies between those of its two regions, one of which is a piece of a bend.
+    // A sharp bend has no faces: it lies between those of its two regions, one of which is a piece
+    // of a bend.
     std::vector<double> region(map.regions.size(), 0), in_bend(region), by_region(region);
     for (int f = 0; f < part.triangles(); ++f)
         if (const auto r = size_t(map.label[f]); r < region.size()) {

@@ -6,8 +6,9 @@
 
 namespace spia {
 
-/// Per bend of the map whether it is a part of what the table has as a whole one over a cylinder: a piece between a hole and the side of a
-/// bend, an edge between its chords where a rim crosses them, or one of narrow triangles between a bend and the rim of a hole beside it.
+/// Per bend of the map whether it is a part of what the table has as a whole one over a cylinder: a
+/// piece between a hole and the side of a bend, an edge between its chords where a rim crosses
+/// them, or one of narrow triangles between a bend and the rim of a hole beside it.
 std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const BendTable& table);
 
 } // namespace spia

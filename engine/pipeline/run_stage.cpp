@@ -27,7 +27,8 @@
 namespace spia {
 namespace {
 
-/// Vertices are named to people by their number in the file; one that the seam or the doctor doubled is several of the mesh.
+/// Vertices are named to people by their number in the file; one that the seam or the doctor
+/// doubled is several of the mesh.
 /// @returns every choice of four different ones, first copies first
 std::vector<std::array<int, 4>> corners_in_mesh(const PartFile& part, const std::array<int, 4>& in_file)
 {
@@ -76,7 +77,8 @@ std::array<int, 4> corners_on_outline(const PartFile& part, const Blank& blank, 
     const auto loops = boundary_loops(part.mesh);
     const std::vector<int>& outline = loops[size_t(outer_loop(loops, blank.position))];
     const auto fits = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return in_order(outline, c); });
-    return fits != choices.end() ? *fits : choices.front(); // split_boundary() says what is wrong with it
+    return fits != choices.end() ? *fits : choices.front(); // split_boundary() says what is wrong
+                                                            // with it
 }
 
 void read(Session& session, const Progress& progress)
@@ -93,7 +95,8 @@ void require_no_tools(const ProcessConditions& process)
             "the part in one step");
 }
 
-/// As the blank of steps lies: straight on the sheet, whatever way the part lay. All that follows is told in these axes.
+/// As the blank of steps lies: straight on the sheet, whatever way the part lay. All that follows
+/// is told in these axes.
 /// @param rolling  in the axes in which the blank lies
 void lay_straight(const TriMesh& part, const std::optional<Eigen::Vector2d>& rolling, FlattenResult& flat)
 {
@@ -110,8 +113,9 @@ void lay_straight(const TriMesh& part, const std::optional<Eigen::Vector2d>& rol
     flat.overlap = overlap(part, flat.blank.position);
 }
 
-/// Where the rolling direction lies on the blank. Where the sheet is strained, r-values have turned the blank to the direction as it is
-/// seen; sheet that is only bent may be turned anyhow, and has the direction in its faces.
+/// Where the rolling direction lies on the blank. Where the sheet is strained, r-values have turned
+/// the blank to the direction as it is seen; sheet that is only bent may be turned anyhow, and has
+/// the direction in its faces.
 std::optional<Eigen::Vector2d> rolling_on(const TriMesh& part, const ProcessConditions& process,
                                           const FlattenResult& flat)
 {
@@ -127,7 +131,8 @@ std::optional<Eigen::Vector2d> rolling_on_steps(const ProcessConditions& process
     return process.rolling ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
 }
 
-/// Steps know nothing of the neutral fibre. Where they only bend the sheet, the blank is solved again with its lengths.
+/// Steps know nothing of the neutral fibre. Where they only bend the sheet, the blank is solved
+/// again with its lengths.
 void lay_steps_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& fibre, FlattenResult& flat,
                     const Progress& progress)
 {
@@ -234,7 +239,8 @@ TriMesh with_holes_filled(const TriMesh& original, const TriMesh& filled, int pa
     return result;
 }
 
-/// The surface within the tolerance, its points taken from the grid's map of the blank wherever they are needed.
+/// The surface within the tolerance, its points taken from the grid's map of the blank wherever
+/// they are needed.
 FitResult fit_within_tolerance(const Session& session, const Progress& progress)
 {
     const SessionOptions& options = session.options;
@@ -282,7 +288,8 @@ void make_surface(Session& session, const Progress& progress)
         stage.deviation =
             deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : measured));
     }
-    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is shown
+    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is
+                    // shown
         const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
         options.part_faces = remeshed->original->triangles();
         Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);

@@ -4,7 +4,8 @@
 
 namespace spia {
 
-/// Runs one stage on a copy of the session; the results of later stages, which it makes stale, are dropped.
+/// Runs one stage on a copy of the session; the results of later stages, which it makes stale, are
+/// dropped.
 /// @throws InputError  if an earlier stage has not run; else what the stage throws
 Session run_stage(Stage stage, Session session, const Progress& progress = {});
 

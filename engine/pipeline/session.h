@@ -33,8 +33,10 @@ std::string_view name(Stage stage);
 
 /// Steps whose blank takes the place of the one-step solve's.
 struct BlankOfSteps {
-    std::shared_ptr<const UnfoldRun> run; ///< of the session's part in its sheet, with a blank without flips
-    bool polish = false; ///< the one-step solve is started from their blank: all material may move once more
+    std::shared_ptr<const UnfoldRun> run; ///< of the session's part in its sheet, with a blank
+                                          ///< without flips
+    bool polish = false;                  ///< the one-step solve is started from their blank: all
+                                          ///< material may move once more
 
     friend bool operator==(const BlankOfSteps&, const BlankOfSteps&) = default;
 };
@@ -42,22 +44,27 @@ struct BlankOfSteps {
 struct SessionOptions {
     ReadOptions read;
     FlattenOptions flatten;
-    std::optional<KFactor> k_factor;   ///< of bends over cylinders, on the middle surface; not given: 0.5
+    std::optional<KFactor> k_factor;   ///< of bends over cylinders, on the middle surface; not
+                                       ///< given: 0.5
     std::optional<BlankOfSteps> steps; ///< not given: the blank is solved in one step
     LimitsOptions limits;
-    std::optional<std::array<int, 4>> corners; ///< vertices of the file; chosen automatically if not given
+    std::optional<std::array<int, 4>> corners; ///< vertices of the file; chosen automatically if
+                                               ///< not given
     GridOptions grid;
     InterpolateOptions interpolate; ///< its degrees and ends hold for a fit, too
-    /// mm, two-sided, of the surface. Not given: it runs through the nodes of the grid, and is as far from the part between
-    /// them as it is.
+    /// mm, two-sided, of the surface. Not given: it runs through the nodes of the grid, and is as
+    /// far from the part between them as it is.
     std::optional<double> tolerance;
-    /// Not given: one patch over the filled blank. Else a layout of patches around the holes, within the tolerance or 1/1000 of the
-    /// part's diagonal; cuts and corners are vertices of the file. The session then has neither grid nor lifted one.
+    /// Not given: one patch over the filled blank. Else a layout of patches around the holes,
+    /// within the tolerance or 1/1000 of the part's diagonal; cuts and corners are vertices of the
+    /// file. The session then has neither grid nor lifted one.
     std::optional<LayoutOptions> patches;
     FitParameters fit_parameters = FitParameters::blank; ///< where a tolerance is given
     int max_control_points = FitOptions{}.max_control_points;
-    std::optional<Deformation> deformation; ///< of the finished surface; not given: it stays as it was fitted
-    bool fill_holes = false; ///< the surface covers the holes of the part; else CAD files have it trimmed by them
+    std::optional<Deformation> deformation; ///< of the finished surface; not given: it stays as it
+                                            ///< was fitted
+    bool fill_holes = false;                ///< the surface covers the holes of the part; else CAD
+                                            ///< files have it trimmed by them
 };
 
 /// A planar grid and the sides it was made from.
@@ -87,16 +94,18 @@ struct DeformedSurface {
     Certificate certificate; ///< of no patch if it was left out
 };
 
-/// All there is to know about one part: what was asked for and the results so far. Results are finished and const;
-/// a copy is cheap, and an old copy is how one goes back.
+/// All there is to know about one part: what was asked for and the results so far. Results are
+/// finished and const; a copy is cheap, and an old copy is how one goes back.
 struct Session {
     std::filesystem::path file;
     SessionOptions options;
 
     std::shared_ptr<const PartFile> part;
     std::shared_ptr<const FlattenResult> blank;
-    std::shared_ptr<const BendTable> bends;      ///< of the part and on the blank; made together with it
-    std::shared_ptr<const CornerCut> corner_cut; ///< what cutting the corners is worth; null: they were not cut
+    std::shared_ptr<const BendTable> bends;      ///< of the part and on the blank; made together
+                                                 ///< with it
+    std::shared_ptr<const CornerCut> corner_cut; ///< what cutting the corners is worth; null: they
+                                                 ///< were not cut
     std::shared_ptr<const LimitsResult> limits;  ///< of the blank; made together with it
     std::shared_ptr<const GridStage> grid;
     std::shared_ptr<const LiftResult> lifted;
@@ -107,14 +116,17 @@ struct Session {
 };
 
 /// Finds out what would end a later stage, as soon as the part is read.
-/// @throws InputError if there is no part, or a corner that was asked for is no vertex of its boundary
+/// @throws InputError if there is no part, or a corner that was asked for is no vertex of its
+/// boundary
 void require_possible(const Session& session);
 
-/// Judges the solved sheet anew by the options' limits, on a copy of the session: quick, no other result changes.
+/// Judges the solved sheet anew by the options' limits, on a copy of the session: quick, no other
+/// result changes.
 /// @throws InputError if the part is not solved; else what forming_limits() throws
 Session judge_limits(Session session);
 
-/// Applies the options' deformation to the fitted surface, on a copy of the session: quick, no other result changes.
+/// Applies the options' deformation to the fitted surface, on a copy of the session: quick, no
+/// other result changes.
 /// @param measure  false leaves out the certificate and DeformResult::off_lattice: for a drag
 /// @throws InputError if there is no surface; else what deform() throws
 Session deform_surface(Session session, bool measure = true, const Progress& progress = {});

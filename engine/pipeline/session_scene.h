@@ -8,8 +8,8 @@
 
 namespace spia {
 
-/// What a scene file or a picture of a session shows: as far as its stages have run, solved at least. The session must
-/// outlive it.
+/// What a scene file or a picture of a session shows: as far as its stages have run, solved at
+/// least. The session must outlive it.
 class SessionScene {
 public:
     /// @param name  of the part

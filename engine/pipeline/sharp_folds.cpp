@@ -18,7 +18,8 @@ namespace {
 /// Sharp folds of the map that belong in the table.
 std::vector<size_t> folds_of(const PartFile& part, const BendMap& map, const Blank& blank, const BendTable& table)
 {
-    constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that the rim of a hole tilts turn by less
+    constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that the rim of a hole tilts
+                                                           // turn by less
     const std::vector<char> known = parts_of_table(part.mesh, map, table);
     const FreeEnds ends(part.mesh);
     std::vector<size_t> result;
@@ -79,7 +80,8 @@ void add_sharp_folds(const PartFile& part, const Blank& blank, BendTable& table)
         bend.sharp = bend.laid = true;
         bend.stated = part.cad.has_value();
         bend.angle = std::abs(map.bends[k].angle);
-        bend.up = map.bends[k].angle < 0; // the outer side, from which the blank is seen, bulges where legs go down
+        bend.up = map.bends[k].angle < 0; // the outer side, from which the blank is seen, bulges
+                                          // where legs go down
         bend.k = laid_fibre(part, !bend.up);
         bend.allowance = 2 * bend.k * table.thickness * std::tan(bend.angle / 2);
         bend.deduction = bend_deduction(0, bend.angle, bend.allowance, table.thickness);

@@ -16,7 +16,8 @@ namespace {
 std::vector<std::string> unlikely_input(const FlattenOptions& options)
 {
     std::vector<std::string> list;
-    constexpr double least_MPa = 10, greatest_MPa = 2500; // lead; the strongest press-hardened steels stay below
+    constexpr double least_MPa = 10, greatest_MPa = 2500; // lead; the strongest press-hardened
+                                                          // steels stay below
     const auto check = [&](const Material& material) {
         const double yields = MembraneLaw(material).curve().yield_stress();
         if (yields < least_MPa || yields > greatest_MPa)
@@ -26,7 +27,8 @@ std::vector<std::string> unlikely_input(const FlattenOptions& options)
     for (const TailoredPiece& piece : options.process.tailored)
         check(piece.material);
     const auto gauge = [&](const std::string& what, double thickness) {
-        constexpr double thinnest = 0.02, thickest = 20; // foil; plate, which no membrane stands for
+        constexpr double thinnest = 0.02, thickest = 20; // foil; plate, which no membrane stands
+                                                         // for
         if (thickness < thinnest || thickness > thickest)
             list.push_back(fmt::format("{} is {:.3g} mm thick: is that in mm?", what, thickness));
     };

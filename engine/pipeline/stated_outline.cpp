@@ -53,8 +53,9 @@ public:
     double within() const { return zones_.within; }
 
 private:
-    /// What is known of the edge from one vertex of a loop of the first mesh to the next. Vertices on a divided chord are called by the number
-    /// of the end that they come after. @param face of the mesh there
+    /// What is known of the edge from one vertex of a loop of the first mesh to the next. Vertices
+    /// on a divided chord are called by the number of the end that they come after. @param face of
+    /// the mesh there
     std::pair<const FlatZone*, int> stated(const std::vector<int>& loop, size_t k, int face) const
     {
         const size_t next = (k + 1) % loop.size();
@@ -143,8 +144,8 @@ private:
         return known;
     }
 
-    /// The loop with its stated stretches as they were before remeshing, between them as it is now. None: nothing is stated of it, or it does
-    /// not follow one of the first mesh.
+    /// The loop with its stated stretches as they were before remeshing, between them as it is now.
+    /// None: nothing is stated of it, or it does not follow one of the first mesh.
     std::optional<Border> as_before(const std::vector<int>& loop) const
     {
         const std::vector<int>* before = loop_before(loop);
@@ -255,7 +256,8 @@ bool one_circle(const StatedPiece& a, const StatedPiece& b, double within)
            (a.centre - b.centre).norm() <= within;
 }
 
-/// Circles come in halves from many programs, and their edges may begin anywhere. The arcs of one that follow each other become one.
+/// Circles come in halves from many programs, and their edges may begin anywhere. The arcs of one
+/// that follow each other become one.
 std::vector<StatedPiece> joined(const std::vector<StatedPiece>& pieces, int edges, double within)
 {
     std::vector<StatedPiece> result;

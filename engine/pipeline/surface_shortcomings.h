@@ -6,14 +6,16 @@
 
 namespace spia {
 
-// What makes a surface poor, in words with the way out; nothing where it is good. @pre session.surface and session.part
+// What makes a surface poor, in words with the way out; nothing where it is good. @pre
+// session.surface and session.part
 
-/// Of a surface for which no tolerance was asked for: it is farther from the part than usual_tolerance somewhere. (What was asked for and
-/// not reached is told by FitReport::shortfall.)
+/// Of a surface for which no tolerance was asked for: it is farther from the part than
+/// usual_tolerance somewhere. (What was asked for and not reached is told by FitReport::shortfall.)
 std::optional<std::string> far_surface(const Session& session);
 
-/// It may have a fold: the certificate is refused elsewhere than at a corner of the grid on a smooth outline, where CAD does not mind, or
-/// samples look the other way than the part. Of a deformed surface the one that leaves the program.
+/// It may have a fold: the certificate is refused elsewhere than at a corner of the grid on a
+/// smooth outline, where CAD does not mind, or samples look the other way than the part. Of a
+/// deformed surface the one that leaves the program.
 std::optional<std::string> folded_surface(const Session& session);
 
 } // namespace spia

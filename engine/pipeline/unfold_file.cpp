@@ -20,7 +20,8 @@ using namespace members;
 constexpr double most_mm = 1e9, degrees = 180 / std::numbers::pi;
 constexpr std::string_view schema = "spia.unfold/1";
 
-/// The labels that the names of a script mean on this part; -1: what it had there is not there any more.
+/// The labels that the names of a script mean on this part; -1: what it had there is not there any
+/// more.
 class NamedRegions {
 public:
     NamedRegions(const Json& json, const Place& place, const PartFile& part, const BendMap& map,
@@ -49,7 +50,8 @@ public:
                 named_[name] = -1;
             }
         });
-        if (!named_.empty() && !findings.empty()) // of a script for this part only some regions may be named
+        if (!named_.empty() && !findings.empty()) // of a script for this part only some regions may
+                                                  // be named
             for (const auto& [name, label] : own_)
                 if (!taken.count(label) && label < int(map.regions.size()))
                     findings.push_back(fmt::format("the part has a region at {:.4g}, {:.4g}, {:.4g} that the script "
@@ -195,7 +197,8 @@ Eigen::Vector3d direction(const Json& json, const Place& place)
     return v.normalized();
 }
 
-/// {"plane": {...}}, {"cylinder": {...}} or {"cone": {...}}. @param towards a place on the side where the face is to be
+/// {"plane": {...}}, {"cylinder": {...}} or {"cone": {...}}. @param towards a place on the side
+/// where the face is to be
 TargetSurface face_in(const Json& json, const Place& place, const Eigen::Vector3d& towards)
 {
     require_object(json, place, {"plane", "cylinder", "cone"});
@@ -257,7 +260,8 @@ void read_options(const Json& json, const Place& place, PlannedStep& step)
     step.most_newton_steps = whole("most_newton_steps");
 }
 
-/// What rubs, on all that is freed or on what its own picks name. @returns the names of these that are not there
+/// What rubs, on all that is freed or on what its own picks name. @returns the names of these that
+/// are not there
 std::vector<std::string> read_friction(const Json& json, const Place& place, const PartFile& part, const BendMap& map,
                                        const NamedRegions& regions, PlannedStep& step)
 {

@@ -47,7 +47,8 @@ Json face_json(const TargetSurface& face)
     if (const auto* cylinder = std::get_if<CylinderFace>(&face))
         return {{"cylinder",
                  {{"origin", xyz(cylinder->origin)}, {"axis", xyz(cylinder->axis)}, {"radius", cylinder->radius}}}};
-    if (const auto* height = std::get_if<HeightFace>(&face)) // it is found again from its carrying faces
+    if (const auto* height = std::get_if<HeightFace>(&face)) // it is found again from its carrying
+                                                             // faces
         return {{"smooth",
                  {{"origin", xyz(height->origin)}, {"normal", xyz(height->axes.col(0).cross(height->axes.col(1)))}}}};
     const auto& cone = std::get<ConeFace>(face);

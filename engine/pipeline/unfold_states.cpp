@@ -258,7 +258,8 @@ UnfoldState state_of(const Json& json, const TriMesh& part, const std::string& n
     return state;
 }
 
-/// The library reads CBOR by recursion: what is nested deeper than our files ever are is refused first.
+/// The library reads CBOR by recursion: what is nested deeper than our files ever are is refused
+/// first.
 class Shallow : public nlohmann::json_sax<Json> {
 public:
     bool null() override { return true; }

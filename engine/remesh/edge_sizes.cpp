@@ -72,8 +72,9 @@ Eigen::VectorXd curvature(const TriMesh& mesh, const EdgeGraph& graph, const std
     return result;
 }
 
-/// Where the given triangles are coarse, an edge across the ridge between two of them cuts it off by a quarter of its length times the
-/// angle. Where they are finer than that length their ridges together are a curvature.
+/// Where the given triangles are coarse, an edge across the ridge between two of them cuts it off
+/// by a quarter of its length times the angle. Where they are finer than that length their ridges
+/// together are a curvature.
 void limit_by_ridges(const TriMesh& mesh, const EdgeGraph& graph, const std::vector<char>& kept, double sagitta,
                      Eigen::VectorXd& size)
 {
@@ -85,7 +86,8 @@ void limit_by_ridges(const TriMesh& mesh, const EdgeGraph& graph, const std::vec
         const Eigen::Vector3d a = normal.col(edge.face), b = normal.col(edge.twin);
         const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
         const double width = 2 * std::min(a.norm(), b.norm()) / edge.length;
-        constexpr double longest_in_strip = 1.5; // of its width: triangles from one ridge to the next have good angles
+        constexpr double longest_in_strip = 1.5; // of its width: triangles from one ridge to the
+                                                 // next have good angles
         const double most = kept[e] == 2                  ? longest_in_strip * width
                             : 4 * sagitta < width * angle ? 4 * sagitta / angle
                                                           : std::numeric_limits<double>::infinity();

@@ -11,9 +11,10 @@ struct SizeLimits {
     double growth = 0.35; ///< of the length per mm of way
 };
 
-/// How long the edges of a remesh should be at each vertex of the mesh: shorter where the surface or a kept line is
-/// curved, or a line is short. #V, mm. Curvature is the mean over a neighbourhood of the tensor of Cohen-Steiner and Morvan
-/// (2003), so that slivers do not count; kept edges are not curvature.
+/// How long the edges of a remesh should be at each vertex of the mesh: shorter where the surface
+/// or a kept line is curved, or a line is short. #V, mm. Curvature is the mean over a neighbourhood
+/// of the tensor of Cohen-Steiner and Morvan (2003), so that slivers do not count; kept edges are
+/// not curvature.
 /// @param least_at  #V, mm: what else asks for shorter edges; empty: nothing
 Eigen::VectorXd edge_sizes(const TriMesh& mesh, const KeptLines& lines, const SizeLimits& limits,
                            const Eigen::VectorXd& least_at);

@@ -108,7 +108,8 @@ EvolvingMesh::Placed EvolvingMesh::place(const Vector& point, double way, Vertex
     return {found.position, asked, found.face};
 }
 
-/// Whether the middle of a new edge is near the given mesh: mostly it is so to a face at one of its ends.
+/// Whether the middle of a new edge is near the given mesh: mostly it is so to a face at one of its
+/// ends.
 bool EvolvingMesh::near(Vertex a, Vertex b) const
 {
     const Vector middle = (at(a) + at(b)) / 2;
@@ -143,7 +144,8 @@ EvolvingMesh::Vertex EvolvingMesh::split(Edge edge, const Vector& position, doub
     return v;
 }
 
-/// Calls each(before, after) for the faces beside an edge and both halves of them if it is divided at a place, until that is false.
+/// Calls each(before, after) for the faces beside an edge and both halves of them if it is divided
+/// at a place, until that is false.
 template <class Each> bool EvolvingMesh::all_halves(Edge edge, const Vector& place, const Each& each) const
 {
     for (const int side : {0, 1}) {
@@ -209,7 +211,8 @@ void EvolvingMesh::divide(int number, const Eigen::VectorXd& sagitta, const Prog
             drop_[size_t(line[i])] = 1;
 }
 
-/// A line that is a crumb beside the tolerance, as where CAD faces do not quite meet: one of its ends is no corner.
+/// A line that is a crumb beside the tolerance, as where CAD faces do not quite meet: one of its
+/// ends is no corner.
 void EvolvingMesh::forget_crumb(const std::vector<int>& line)
 {
     constexpr double crumb = 0.25; // of the sagitta
@@ -325,7 +328,8 @@ bool EvolvingMesh::closes_line(Halfedge h) const
 void EvolvingMesh::collapse(Halfedge h)
 {
     const Vertex to = mesh_.to_vertex_handle(h), from = mesh_.from_vertex_handle(h);
-    std::vector<std::pair<Vertex, int>> joined; // ends of line edges that fall on other edges, and which line it is
+    std::vector<std::pair<Vertex, int>> joined; // ends of line edges that fall on other edges, and
+                                                // which line it is
     std::vector<Vertex> ring;
     for (const Halfedge out : mesh_.voh_range(from)) {
         const Vertex w = mesh_.to_vertex_handle(out);
@@ -360,14 +364,15 @@ bool EvolvingMesh::flip_if_sound(Edge edge, const Quad& v, double thin)
     return true;
 }
 
-/// Puts the vertex on the given mesh near the place, unless a face turns over or the thinnest one becomes thinner than it is and
-/// than good_enough.
+/// Puts the vertex on the given mesh near the place, unless a face turns over or the thinnest one
+/// becomes thinner than it is and than good_enough.
 bool EvolvingMesh::move(Vertex v, const Vector& place_of_it, const Vector& normal, double good_enough)
 {
     const Vector before = at(v);
     const Placed placed = place(place_of_it, (place_of_it - before).norm(), v);
     const Vector side = original_normal_.col(placed.face);
-    constexpr double same_layer = 0.5; // cosine; the nearest place may be on a sheet that lies behind this one
+    constexpr double same_layer = 0.5; // cosine; the nearest place may be on a sheet that lies
+                                       // behind this one
     if (side.dot(normal) < same_layer * side.norm())
         return false;
     double thinnest = good_enough;
@@ -422,7 +427,8 @@ void EvolvingMesh::shorten(const Eigen::VectorXd& share, double least, double gr
             for (const Halfedge h : mesh_.voh_range(v))
                 lower(mesh_.to_vertex_handle(h), here + growth * length(v, mesh_.to_vertex_handle(h)));
     }
-    // With 3 the hundredth worst angle of a drawn cone is 33.7 degrees, with 8 it is 34.5, as if all might change.
+    // With 3 the hundredth worst angle of a drawn cone is 33.7 degrees, with 8 it is 34.5, as if
+    // all might change.
     constexpr int rings = 8;
     for (int ring = 0; ring < rings; ++ring) {
         const std::vector<char> before = open_;
@@ -439,7 +445,8 @@ EvolvingMesh::Finished EvolvingMesh::finished()
     snapshot_vertex_.clear();
     std::vector<int> number(mesh_.n_vertices(), none);
     for (int i = 0; i < int(mesh_.n_vertices()); ++i)
-        if (const Vertex v(i); !mesh_.status(v).deleted() && !mesh_.is_isolated(v)) { // isolated: of thin faces
+        // isolated: of thin faces
+        if (const Vertex v(i); !mesh_.status(v).deleted() && !mesh_.is_isolated(v)) {
             number[size_t(i)] = int(snapshot_vertex_.size());
             snapshot_vertex_.push_back(i);
         }

@@ -14,8 +14,9 @@
 
 namespace spia {
 
-/// A mesh on its way from the given triangles to new ones. Vertices keep on the given mesh, kept lines stay where they are, and no change
-/// turns a face over or puts an edge off the given mesh: what would do so is not done.
+/// A mesh on its way from the given triangles to new ones. Vertices keep on the given mesh, kept
+/// lines stay where they are, and no change turns a face over or puts an edge off the given mesh:
+/// what would do so is not done.
 class EvolvingMesh {
 public:
     using Vector = Eigen::Vector3d;
@@ -24,7 +25,8 @@ public:
     using Halfedge = OpenMesh::HalfedgeHandle;
     using Face = OpenMesh::FaceHandle;
     using Corners = Eigen::Matrix3d;    ///< one per column
-    using Quad = std::array<Vertex, 4>; ///< an edge from 0 to 1 between the triangles 0 1 2 and 1 0 3
+    using Quad = std::array<Vertex, 4>; ///< an edge from 0 to 1 between the triangles 0 1 2 and 1 0
+                                        ///< 3
     using Tick = long;                  ///< counts changes
 
     /// Divides the kept lines (divide_line()).
@@ -46,21 +48,26 @@ public:
     std::pair<Vertex, Vertex> ends(Edge e) const;
     Corners triangle(Face f) const;
     Corners triangle(Vertex a, Vertex b, Vertex c) const;
-    /// Squared cotangent of the least angle: what an angle is compared by, as it takes no root and no arc. From 1/3 up.
+    /// Squared cotangent of the least angle: what an angle is compared by, as it takes no root and
+    /// no arc. From 1/3 up.
     static double thinness(const Corners& triangle);
-    static double thinness(double angle) { return std::pow(std::tan(angle), -2); } ///< of that least angle, radians
-    double thinness(const Quad& quad) const;                                       ///< the larger one of both
+    /// of that least angle, radians
+    static double thinness(double angle) { return std::pow(std::tan(angle), -2); }
+    /// the larger one of both
+    double thinness(const Quad& quad) const;
     static Vector area_of(const Corners& t) { return (t.col(1) - t.col(0)).cross(t.col(2) - t.col(0)) / 2; }
     ///@}
 
-    /// @name When it changed. What has been tried in vain need not be tried again before something around it is another.
+    /// @name When it changed. What has been tried in vain need not be tried again before something
+    /// around it is another.
     ///@{
     Tick now() const { return now_; }
     /// The last change of its place, its size, its faces or those of a neighbour.
     Tick changed(Vertex v) const { return changed_[size_t(v.idx())]; }
     Tick changed(Edge e) const;
     Tick changed(Face f) const;
-    /// Whether it may be changed: all may until shorten(), then what is near to where that asked for shorter edges.
+    /// Whether it may be changed: all may until shorten(), then what is near to where that asked
+    /// for shorter edges.
     bool open(Vertex v) const { return open_[size_t(v.idx())]; }
     bool open(Edge e) const;
     bool open(Face f) const;
@@ -71,19 +78,22 @@ public:
 
     /// In its middle, on the given mesh, unless nothing would be left of a face.
     bool split(Edge edge);
-    /// An edge of a kept line at the place of the line that is nearest to its middle, unless a face would turn over.
+    /// An edge of a kept line at the place of the line that is nearest to its middle, unless a face
+    /// would turn over.
     bool split_line(Edge edge);
-    /// Pulls either end into the other one, but none off a line, and makes no edge longer than 4/3 of its size.
+    /// Pulls either end into the other one, but none off a line, and makes no edge longer than 4/3
+    /// of its size.
     bool collapse_if_sound(Edge edge);
     /// If both new triangles are less thin than that.
     bool flip_if_sound(Edge edge, const Quad& quad, double thin);
-    /// Puts the vertex on the given mesh near the place, unless a face turns over or the thinnest one becomes thinner than
-    /// it is and than good_enough.
+    /// Puts the vertex on the given mesh near the place, unless a face turns over or the thinnest
+    /// one becomes thinner than it is and than good_enough.
     bool move(Vertex v, const Vector& place, const Vector& normal, double good_enough);
     /// Those between the pieces of lines that are longer than they were.
     void drop_line_vertices();
-    /// Asks for shorter edges at vertices of the mesh that finished() gave last, and around them, growing with the way. Only these, and a few
-    /// rings around for triangles to fit in, may be changed then.
+    /// Asks for shorter edges at vertices of the mesh that finished() gave last, and around them,
+    /// growing with the way. Only these, and a few rings around for triangles to fit in, may be
+    /// changed then.
     /// @param share   #V of that mesh, of the size that is asked for now: 1 where it stays
     /// @param least   mm, no size becomes smaller
     /// @param growth  of the size per mm of way
@@ -91,13 +101,15 @@ public:
 
     struct Finished {
         TriMesh mesh;
-        /// Per face its number in the mesh that was given before if neither it nor a neighbour has changed, else -1.
+        /// Per face its number in the mesh that was given before if neither it nor a neighbour has
+        /// changed, else -1.
         std::vector<int> was;
     };
     Finished finished();
 
     static constexpr double too_long = 4.0 / 3,
-                            too_short = 4.0 / 5; ///< of the size: where a split or collapse does not go farther from it
+                            too_short = 4.0 / 5; ///< of the size: where a split or collapse does
+                                                 ///< not go farther from it
 
 private:
     struct Placed {

@@ -37,7 +37,8 @@ template <class Each> void for_all(int count, const Progress& progress, const ch
 
 using Tick = EvolvingMesh::Tick;
 
-/// When each edge, vertex or face was last tried: what was left as it was would be so again before something around it changes.
+/// When each edge, vertex or face was last tried: what was left as it was would be so again before
+/// something around it changes.
 class LastTried {
 public:
     /// @param handle  of an edge, vertex or face
@@ -118,7 +119,8 @@ void split_long(Work& work, double most_edges, const Progress& progress)
             }
             again = mesh.split(edge) || again;
         });
-        // Needles beside each other would all be cut to pieces as long as the sizes, a hundred times too many.
+        // Needles beside each other would all be cut to pieces as long as the sizes, a hundred
+        // times too many.
         if (mesh.mesh().n_edges() > most_growth * before) {
             collapse_short(work, progress.part(1, 1));
             before = mesh.mesh().n_edges();
@@ -278,7 +280,8 @@ int mend_thin(Work& work, double thin, const Progress& progress)
     return left;
 }
 
-/// Halves edges of kept lines; divide_line() has divided them for the sizes that were asked for at first.
+/// Halves edges of kept lines; divide_line() has divided them for the sizes that were asked for at
+/// first.
 void split_long_lines(Work& work)
 {
     EvolvingMesh& mesh = work.mesh;
@@ -335,7 +338,8 @@ void IncrementalRemesh::run(const Progress& progress)
 {
     Work& work = state_->work;
     flip_for_angle(work, progress.part(0, 0.01)); // thin triangles hinder collapses
-    work.mesh.drop_line_vertices();               // strips: what will go is not split along their length before
+    work.mesh.drop_line_vertices();               // strips: what will go is not split along their
+                                                  // length before
     collapse_short(work, progress.part(0.01, 0.02));
     const int rounds = state_->options.rounds;
     for (int round = 0; round < rounds; ++round)

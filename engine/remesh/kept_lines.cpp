@@ -42,7 +42,8 @@ std::vector<int> kept_at(const EdgeGraph& graph, const std::vector<char>& kept, 
     return edges;
 }
 
-/// Where a surface is curved both ways, or its edges cross a bend, ridges fork: there they say nothing of a bend.
+/// Where a surface is curved both ways, or its edges cross a bend, ridges fork: there they say
+/// nothing of a bend.
 void keep_without_forks(const EdgeGraph& graph, const std::vector<char>& ridge, std::vector<char>& kept)
 {
     std::vector<char> forked(size_t(graph.vertices()), 0);
@@ -53,7 +54,8 @@ void keep_without_forks(const EdgeGraph& graph, const std::vector<char>& ridge, 
             kept[e] = 2;
 }
 
-/// Takes away lines with a loose end that are shorter than that: the normal of a sliver makes an edge look sharp.
+/// Takes away lines with a loose end that are shorter than that: the normal of a sliver makes an
+/// edge look sharp.
 void prune(const EdgeGraph& graph, double shortest, std::vector<char>& kept)
 {
     constexpr int most_rounds = 3; // a fork becomes a loose end

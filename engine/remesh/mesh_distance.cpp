@@ -41,8 +41,9 @@ std::vector<std::array<Side, 3>> sides_of(const TriMesh& mesh)
     return result;
 }
 
-/// Cuts the polygon in two; one is empty where the other one holds all but `on`, mm. Corners nearer to the plane than that belong to
-/// both: a needle along the plane would else be cut by rounding, again and again.
+/// Cuts the polygon in two; one is empty where the other one holds all but `on`, mm. Corners nearer
+/// to the plane than that belong to both: a needle along the plane would else be cut by rounding,
+/// again and again.
 std::pair<Polygon, Polygon> cut(const Polygon& polygon, const Side& side, double on)
 {
     std::pair<Polygon, Polygon> result;
@@ -97,7 +98,8 @@ public:
     /// @param harmless  mm; a bound of that is good enough
     Found of(const Eigen::Matrix3d& triangle, Found found, int nearest, double harmless) const
     {
-        constexpr int most_pieces = 1'000'000; // then what is left is bounded by the way from its middle
+        constexpr int most_pieces = 1'000'000; // then what is left is bounded by the way from its
+                                               // middle
         const auto enough = [&] { return std::max(harmless, sharp_enough(found.seen, precision_)); };
         if (nearest >= 0) // mostly one face is near enough to all of it
             if (const double bound = bound_of({triangle.col(0), triangle.col(1), triangle.col(2)}, nearest);
@@ -121,7 +123,8 @@ public:
             double radius = 0;
             for (const Eigen::Vector3d& p : piece)
                 radius = std::max(radius, (p - middle).norm());
-            const double sure = std::min(bound, to_middle.distance + radius); // no distance changes faster than the way
+            // no distance changes faster than the way
+            const double sure = std::min(bound, to_middle.distance + radius);
             if (sure <= enough() || pieces >= most_pieces) {
                 found.bound = std::max(found.bound, sure);
                 continue;

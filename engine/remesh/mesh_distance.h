@@ -17,13 +17,15 @@ struct MeshDistance {
     Eigen::VectorXd of_face;                         ///< bound of each face, mm
     Eigen::VectorXd seen_of_face;                    ///< mm; at `place` it is that far
     Eigen::Matrix3Xd place;                          ///< 3 by #F, mm
-    std::vector<int> nearest;                        ///< per face: that of the other mesh nearest to its middle
+    std::vector<int> nearest;                        ///< per face: that of the other mesh nearest
+                                                     ///< to its middle
 };
 
-/// The largest distance from places of a mesh to the nearest place of another, as a bound that holds everywhere, not only at samples.
-/// The distance to a triangle is convex: on a polygon it is largest at a corner. Each face is clipped along the borders of
-/// the faces that are nearest to its pieces until the bound of each piece is no more than `precision`, or a
-/// tenth, above a distance that was seen on the face, or no more than what was seen anywhere.
+/// The largest distance from places of a mesh to the nearest place of another, as a bound that
+/// holds everywhere, not only at samples. The distance to a triangle is convex: on a polygon it is
+/// largest at a corner. Each face is clipped along the borders of the faces that are nearest to its
+/// pieces until the bound of each piece is no more than `precision`, or a tenth, above a distance
+/// that was seen on the face, or no more than what was seen anywhere.
 /// @param search     of `to`
 /// @param precision  mm
 /// @param harmless   mm: bounds of single faces that are no larger are not made sharper, however little was seen
@@ -32,8 +34,8 @@ struct MeshDistance {
 MeshDistance farthest(const TriMesh& from, const TriMesh& to, const ClosestPointSearch& search, double precision,
                       double harmless = std::numeric_limits<double>::infinity(), const Progress& progress = {});
 
-/// Measures some faces again; of the others the distance has to say what still holds. Those that were bounded less sharply than is asked for
-/// now are made sharper.
+/// Measures some faces again; of the others the distance has to say what still holds. Those that
+/// were bounded less sharply than is asked for now are made sharper.
 /// @param again  per face of `from`, 1: to be measured
 void measure_again(MeshDistance& distance, const std::vector<char>& again, const TriMesh& from, const TriMesh& to,
                    const ClosestPointSearch& search, double precision, double harmless, const Progress& progress = {});

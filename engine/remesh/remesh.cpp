@@ -93,7 +93,8 @@ void lead_back(RemeshResult& result, const TriMesh& part, const ClosestPointSear
     sort_by_source(result, vertex, face);
 }
 
-/// The median edge, or if that is longer that of as many equilateral triangles: long slivers have short edges between them.
+/// The median edge, or if that is longer that of as many equilateral triangles: long slivers have
+/// short edges between them.
 double usual_edge(const TriMesh& mesh, double median)
 {
     return std::max(median, std::sqrt(4 / std::sqrt(3.0) * area(mesh) / mesh.triangles()));
@@ -105,7 +106,8 @@ constexpr double no_height = 0.1; // of the tolerance: the normal of such a face
 struct Fault {
     std::string text;        ///< empty: nothing
     Eigen::VectorXd shorter; ///< #V of the part, mm: sizes that may help if all is done again
-    Eigen::VectorXd share;   ///< #V of the new mesh: of the length of edges there, which may help; empty: none would
+    Eigen::VectorXd share;   ///< #V of the new mesh: of the length of edges there, which may help;
+                             ///< empty: none would
 };
 
 std::string describe_place(const Eigen::Vector3d& p)
@@ -113,7 +115,8 @@ std::string describe_place(const Eigen::Vector3d& p)
     return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", p.x(), p.y(), p.z());
 }
 
-/// Faces of the part that look against those around them, as where its surface folds back within a tight bend: new faces are not to do so.
+/// Faces of the part that look against those around them, as where its surface folds back within a
+/// tight bend: new faces are not to do so.
 std::vector<char> folded_faces(const TriMesh& part, const Eigen::Matrix3Xd& normal)
 {
     Eigen::Matrix3Xd around = Eigen::Matrix3Xd::Zero(3, part.vertices());
@@ -217,14 +220,16 @@ struct Given {
     const ClosestPointSearch &on_part, &on_even;
 };
 
-/// Remeshes with these sizes. Where the mesh is not good it is made finer there until it is, a few times.
+/// Remeshes with these sizes. Where the mesh is not good it is made finer there until it is, a few
+/// times.
 /// @param limits  that the sizes are of
 /// @returns what is wrong with it in the end
 Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& size, const SizeLimits& limits,
               const IncrementalOptions& options, const Progress& progress)
 {
     constexpr int most_repairs = 8;       // two or three are usual
-    constexpr int most_in_vain = 2;       // in a row: faces that are turned over may stay so however small they are
+    constexpr int most_in_vain = 2;       // in a row: faces that are turned over may stay so
+                                          // however small they are
     constexpr double most_at_fault = 0.1; // of the vertices; where most are the sizes are wrong
     constexpr double all_rounds = 0.7, share_of_making = 0.7;
     const SurfaceType type = surface_type(given.part);
@@ -292,7 +297,8 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
 
     std::vector<int> labels(label.begin(), label.end());
     const TriMesh even =
-        without_thin_faces(part, no_height * result.tolerance, labels); // with the vertices of the part
+        // with the vertices of the part
+        without_thin_faces(part, no_height * result.tolerance, labels);
     const KeptLines lines = kept_lines(even, labels, options.sharp, options.ridge, result.size);
     result.lines = int(lines.line.size());
     result.corners = int(std::count(lines.corner.begin(), lines.corner.end(), 1));
@@ -321,7 +327,8 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
             refuse("a larger size");
         }
         constexpr double most_growth = 20; // then shorter edges do not help
-        // 1.5 for a triangle that is to be; the needles of CAD faces take up to 15 times as many on the way.
+        // 1.5 for a triangle that is to be; the needles of CAD faces take up to 15 times as many on
+        // the way.
         const double most_edges = std::max(2e6, 25 * 1.5 * expected_triangles(even, size));
         if (done == 0)
             most_triangles = std::min(most_triangles, most_growth * expected_triangles(even, size));

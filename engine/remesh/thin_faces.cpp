@@ -151,7 +151,8 @@ private:
         return thin.dot(side) > enough * thin.norm() * side.norm();
     }
 
-    /// Unless it looks to where its neighbours look, or the boundary would touch itself at the vertex over its edge.
+    /// Unless it looks to where its neighbours look, or the boundary would touch itself at the
+    /// vertex over its edge.
     bool cut_off(Face face, Halfedge h)
     {
         if (mesh_.is_boundary(top(h)))

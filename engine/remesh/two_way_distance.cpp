@@ -56,7 +56,8 @@ bool meets(const BoxTree& tree, int k, const Eigen::AlignedBox3d& box)
     return node.box.intersects(box) && (node.count > 0 || meets(tree, k + 1, box) || meets(tree, node.second, box));
 }
 
-/// Of each face of a part whether something has changed no farther from it than its bound: only that can have been nearest to it.
+/// Of each face of a part whether something has changed no farther from it than its bound: only
+/// that can have been nearest to it.
 std::vector<char> faces_near(const TriMesh& part, const Eigen::VectorXd& bound, const TriMesh& changed)
 {
     std::vector<char> near(size_t(part.triangles()), 0);

@@ -7,8 +7,8 @@
 
 namespace spia {
 
-/// Both ways between a part and a mesh that is to replace it, while that mesh changes here and there: only what has changed, and what is
-/// near to that, is measured again.
+/// Both ways between a part and a mesh that is to replace it, while that mesh changes here and
+/// there: only what has changed, and what is near to that, is measured again.
 class TwoWayDistance {
 public:
     /// @param part       has to stay

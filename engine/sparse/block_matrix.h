@@ -8,15 +8,16 @@ namespace spia {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// A sparse matrix of 2 x 2 blocks on the graph of a triangle mesh, with a pattern that is fixed once. Unknown
-/// 2 v + k is component k of vertex v. Stored by rows (CSR), full pattern, columns sorted.
+/// A sparse matrix of 2 x 2 blocks on the graph of a triangle mesh, with a pattern that is fixed
+/// once. Unknown 2 v + k is component k of vertex v. Stored by rows (CSR), full pattern, columns
+/// sorted.
 class BlockMatrix {
 public:
     /// @param triangle 3 by #F vertex indices; every vertex must belong to a triangle
     BlockMatrix(const Eigen::Matrix3Xi& triangle, int vertices);
 
-    /// Replaces the values by the sum of the element matrices; element row 2 a + k is component k of corner a.
-    /// Summed in the order of the elements, so the bits do not depend on threads.
+    /// Replaces the values by the sum of the element matrices; element row 2 a + k is component k
+    /// of corner a. Summed in the order of the elements, so the bits do not depend on threads.
     void assemble(const std::vector<Matrix6d>& element);
 
     /// The same piece by piece: all values zero, then each element's matrix added.
@@ -38,7 +39,8 @@ public:
     const std::vector<int>& column() const { return column_; }
     const std::vector<double>& value() const { return value_; }
 
-    /// The graph of the vertices (CSC pattern, diagonal included): what fill-reducing orderings work on.
+    /// The graph of the vertices (CSC pattern, diagonal included): what fill-reducing orderings
+    /// work on.
     const std::vector<int>& graph_start() const { return graph_start_; }
     const std::vector<int>& graph_row() const { return graph_row_; }
     /// Where the entry of two neighbouring vertices stands in graph_row().

@@ -14,8 +14,9 @@ extern "C" void openblas_set_num_threads(int);
 namespace spia {
 namespace {
 
-/// Debian's CHOLMOD opens a team of four OpenMP threads for each supernode, which costs a factor of two on small
-/// fronts; and a BLAS with threads of its own would sum in another order on another machine.
+/// Debian's CHOLMOD opens a team of four OpenMP threads for each supernode, which costs a factor of
+/// two on small fronts; and a BLAS with threads of its own would sum in another order on another
+/// machine.
 void one_thread_only()
 {
     omp_set_max_active_levels(0);
@@ -44,8 +45,8 @@ cholmod_sparse view(int size, const std::vector<int>& start, const std::vector<i
 struct Cholesky::State {
     cholmod_common common;
     cholmod_factor* factor = nullptr;
-    // The matrix in the order of the factor, and where each of its values stands in ours: cholmod_factorize() would sort
-    // the whole pattern into that order anew each time.
+    // The matrix in the order of the factor, and where each of its values stands in ours:
+    // cholmod_factorize() would sort the whole pattern into that order anew each time.
     cholmod_sparse* ordered = nullptr;
     std::vector<int> source;
     std::vector<int> vertex_order;
@@ -139,7 +140,8 @@ struct Cholesky::State {
 
 Cholesky::Cholesky(const BlockMatrix& pattern) : state_(std::make_unique<State>())
 {
-    // Order the vertices, then give both unknowns of a vertex neighbouring places: half the graph, better supernodes.
+    // Order the vertices, then give both unknowns of a vertex neighbouring places: half the graph,
+    // better supernodes.
     cholmod_sparse graph = view(pattern.vertices(), pattern.graph_start(), pattern.graph_row(), nullptr);
     state_->vertex_order.resize(size_t(pattern.vertices()));
     if (!cholmod_metis(&graph, nullptr, 0, 1, state_->vertex_order.data(), &state_->common))

@@ -5,8 +5,9 @@
 
 namespace spia {
 
-/// Sparse Cholesky factor (CHOLMOD, supernodal, METIS order of the vertex graph). The symbolic analysis is made once
-/// for a pattern and serves every later factor. One object belongs to one thread at a time.
+/// Sparse Cholesky factor (CHOLMOD, supernodal, METIS order of the vertex graph). The symbolic
+/// analysis is made once for a pattern and serves every later factor. One object belongs to one
+/// thread at a time.
 class Cholesky {
 public:
     /// Orders and analyses the pattern.
@@ -21,7 +22,8 @@ public:
 
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
-    /// About the same by a factor rounded to single precision, in less than half of the time on two threads.
+    /// About the same by a factor rounded to single precision, in less than half of the time on two
+    /// threads.
     Eigen::VectorXd precondition(const Eigen::VectorXd& right) const;
 
 private:
@@ -30,7 +32,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// The same for a matrix with one unknown per vertex on the graph of a block matrix, in the order found for that one.
+/// The same for a matrix with one unknown per vertex on the graph of a block matrix, in the order
+/// found for that one.
 class VertexCholesky {
 public:
     VertexCholesky(const BlockMatrix& pattern, const Cholesky& ordered);

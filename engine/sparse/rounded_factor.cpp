@@ -165,7 +165,8 @@ void RoundedFactor::assign(const Supernodes& factor)
         divide(factor);
     value_.resize(factor.values);
     std::copy(factor.value, factor.value + factor.values, value_.begin());
-    for (int s = 0; s < factor.count; ++s) { // the diagonal inverted: a product is cheaper than a division
+    for (int s = 0; s < factor.count; ++s) { // the diagonal inverted: a product is cheaper than a
+                                             // division
         const int rows = factor.row_start[s + 1] - factor.row_start[s];
         for (int j = 0; j < factor.column[s + 1] - factor.column[s]; ++j) {
             float& diagonal = value_[size_t(factor.value_start[s] + j * rows + j)];

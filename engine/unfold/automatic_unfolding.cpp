@@ -20,7 +20,8 @@ struct Fault {
     bool has_blank = false; ///< the run ended in one all the same
 };
 
-/// The worst step before all is flattened that strains the sheet more than that does at last: it led nowhere.
+/// The worst step before all is flattened that strains the sheet more than that does at last: it
+/// led nowhere.
 std::optional<Fault> strained_for_nothing(const UnfoldScript& steps, const UnfoldRun& run)
 {
     constexpr double harmless = 0.05; // equivalent strain
@@ -75,7 +76,8 @@ AutomaticUnfolding automatic_unfolding(const TriMesh& part, const BendMap& map, 
     AutomaticUnfolding now{propose_sequence(part, map, options), {}};
     options.root = now.sequence.root; // stays, whatever carries nothing
     std::vector<std::string> given_up;
-    std::optional<AutomaticUnfolding> nearly; // the first faulty plan whose steps converge, else that ended in a blank
+    std::optional<AutomaticUnfolding> nearly; // the first faulty plan whose steps converge, else
+                                              // that ended in a blank
     size_t keep = begun ? std::min(alike(begun->sequence.steps, now.sequence.steps), begun->run.states.size()) : 0;
     for (UnfoldRun before = begun ? begun->run : UnfoldRun{};;) {
         now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep,

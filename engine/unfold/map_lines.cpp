@@ -40,7 +40,8 @@ public:
     {
         std::vector<Eigen::Vector3d> points;
         const Eigen::Index segments = segments_of(line);
-        for (const auto& p : line.point.colwise()) // a point that lies off the sheet tells more than a place before it
+        for (const auto& p : line.point.colwise()) // a point that lies off the sheet tells more
+                                                   // than a place before it
             on_part(line, p.head<2>());
         for (Eigen::Index k = 0; k < segments; ++k) {
             const Eigen::Vector2d p = line.point.col(k).head<2>(),
@@ -48,8 +49,8 @@ public:
             std::vector<double> at = crossings(p, q - p);
             for (size_t i = 0; i < at.size(); ++i) {
                 points.push_back(on_part(line, p + at[i] * (q - p)));
-                const double next =
-                    i + 1 < at.size() ? at[i + 1] : 1; // between edges it is in one face, or off the sheet
+                // between edges it is in one face, or off the sheet
+                const double next = i + 1 < at.size() ? at[i + 1] : 1;
                 on_part(line, p + (at[i] + next) / 2 * (q - p));
             }
         }
@@ -68,7 +69,8 @@ private:
         return part_.position(Eigen::all, part_.triangle.col(place.face)) * place.barycentric;
     }
 
-    /// Where a segment crosses edges of the mesh, from its begin (0) on; what is nearer to each other than rounding counts once.
+    /// Where a segment crosses edges of the mesh, from its begin (0) on; what is nearer to each
+    /// other than rounding counts once.
     std::vector<double> crossings(const Eigen::Vector2d& p, const Eigen::Vector2d& d) const
     {
         constexpr double same = 1e-9; // of the segment

@@ -15,7 +15,8 @@ namespace {
 
 using Segment = std::array<int, 2>; ///< numbers of points
 
-/// Joins segments to lines; where more than two meet a line ends. In the order of their smallest points.
+/// Joins segments to lines; where more than two meet a line ends. In the order of their smallest
+/// points.
 std::vector<std::vector<int>> chained(const std::vector<Segment>& segments)
 {
     std::map<int, std::vector<int>> at;
@@ -51,7 +52,8 @@ std::vector<std::vector<int>> chained(const std::vector<Segment>& segments)
     return lines;
 }
 
-/// What lies at one place but for rounding is one point: lines that run through a vertex cross several edges there.
+/// What lies at one place but for rounding is one point: lines that run through a vertex cross
+/// several edges there.
 SheetLine line_of(std::string name, std::vector<int> points, const Eigen::Matrix3Xd& position)
 {
     constexpr double same = 1e-9; // of the line
@@ -102,7 +104,8 @@ std::vector<SheetLine> half_way(const std::string& name, const TriMesh& part, co
         position.col(Eigen::Index(p)) = points[p];
     std::vector<SheetLine> lines;
     for (const auto& chain : chained(pieces))
-        if (SheetLine line = line_of(name, chain, position); line.point.cols() > 1) // else it touches a vertex only
+        // else it touches a vertex only
+        if (SheetLine line = line_of(name, chain, position); line.point.cols() > 1)
             lines.push_back(std::move(line));
     return lines;
 }

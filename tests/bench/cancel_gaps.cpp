@@ -1,5 +1,6 @@
-// The longest times in which a job cannot be cancelled: spia-cancel-gaps PART [TOLERANCE_MM]... runs the whole chain and prints, for every
-// stage, its seconds and its longest gaps between two checkpoints with the steps before and after each.
+// The longest times in which a job cannot be cancelled: spia-cancel-gaps PART [TOLERANCE_MM]...
+// runs the whole chain and prints, for every stage, its seconds and its longest gaps between two
+// checkpoints with the steps before and after each.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>

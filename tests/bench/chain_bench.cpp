@@ -1,6 +1,6 @@
-// Seconds and memory per stage on the inner panel, and beside them in the same run one symbolic and numeric sparse Cholesky
-// factorisation of a symmetric matrix with the solver's own pattern: the yardstick. Absolute times mean little on a
-// shared machine; read the counter `per_factorisation`.
+// Seconds and memory per stage on the inner panel, and beside them in the same run one symbolic and
+// numeric sparse Cholesky factorisation of a symmetric matrix with the solver's own pattern: the
+// yardstick. Absolute times mean little on a shared machine; read the counter `per_factorisation`.
 #include <Eigen/Geometry>
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -116,7 +116,8 @@ bool looks_up(const TriMesh& part, int f)
     return (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).normalized()[2] > 0.7;
 }
 
-/// One step of local unfolding onto the face on which the fixed faces lie, beside one factorisation of the matrix of its freed faces.
+/// One step of local unfolding onto the face on which the fixed faces lie, beside one factorisation
+/// of the matrix of its freed faces.
 void unfold_step_of(benchmark::State& state, TriMesh (*part_of)(int), bool (*stays)(const TriMesh&, int))
 {
     // So many freed faces.

@@ -1,5 +1,6 @@
-// How many control points surfaces within a tolerance need: fit(), uniform interpolation, and OpenCASCADE's approximation of
-// the points of the fit. The deviation of all three is measured in the same way: from the known sheet, at dense places.
+// How many control points surfaces within a tolerance need: fit(), uniform interpolation, and
+// OpenCASCADE's approximation of the points of the fit. The deviation of all three is measured in
+// the same way: from the known sheet, at dense places.
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Standard_Failure.hxx>
@@ -56,7 +57,8 @@ std::string open_cascade(const shapes::KnownSheet& sheet, const FitSource& sourc
     for (int j = 0; j < m; ++j)
         for (int i = 0; i < n; ++i)
             array.SetValue(i + 1, j + 1, gp_Pnt(points(0, i + j * n), points(1, i + j * n), points(2, i + j * n)));
-    // It takes its tolerance for a mean: it is asked for less until what is measured is as little as was wanted.
+    // It takes its tolerance for a mean: it is asked for less until what is measured is as little
+    // as was wanted.
     try {
         double asked = tolerance;
         std::string text;

@@ -1,4 +1,5 @@
-// Parts of any fineness for measuring the programs: spia-make-part panel|cup|dome TRIANGLES OUT.obj|OUT.stl
+// Parts of any fineness for measuring the programs: spia-make-part panel|cup|dome TRIANGLES
+// OUT.obj|OUT.stl
 #include <cstdlib>
 #include <fmt/core.h>
 #include <string_view>

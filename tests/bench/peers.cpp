@@ -1,7 +1,8 @@
 // Our LSCM, ARAP and one-step inverse forming (with plasticity) beside the LSCM and ARAP of CGAL's
-// Surface_mesh_parameterization [Saboret, Alliez, Levy, Rouxel-Labbe, Fabri] on the same mesh in the same run, judged by the
-// same ruler; times are those of the processor, all threads together. CGAL has no ABF++ (5.5).
-// Usage: spia-peers [PART] [LARGEST]; without a part the inner panel at several sizes up to LARGEST triangles.
+// Surface_mesh_parameterization [Saboret, Alliez, Levy, Rouxel-Labbe, Fabri] on the same mesh in
+// the same run, judged by the same ruler; times are those of the processor, all threads together.
+// CGAL has no ABF++ (5.5). Usage: spia-peers [PART] [LARGEST]; without a part the inner panel at
+// several sizes up to LARGEST triangles.
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
@@ -112,7 +113,8 @@ void beside_each_other(const TriMesh& part)
         [&] {
             using Border = smp::Two_vertices_parameterizer_3<Mesh>;
             const Border border{Vertex{unsigned(pins[0])}, Vertex{unsigned(pins[1])}};
-            // Its rows lack the 1 / sqrt(2 A) of the paper's eq. 4: large triangles weigh more than in ours.
+            // Its rows lack the 1 / sqrt(2 A) of the paper's eq. 4: large triangles weigh more than
+            // in ours.
             Eigen::Matrix2Xd flat = parameterized(part, mesh, smp::LSCM_parameterizer_3<Mesh, Border>(border));
             scale_to_area_of(part, flat);
             return flat;

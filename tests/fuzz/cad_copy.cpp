@@ -61,8 +61,8 @@ volatile std::sig_atomic_t looks = 0, in_opencascade = 0;
 
 void set_timer(itimerval first) { ::setitimer(ITIMER_PROF, &first, nullptr); }
 
-/// Loops of the reader may call OpenCASCADE: so not the first look counts, but most of them. (One that is there most of the time counts as
-/// OpenCASCADE's.)
+/// Loops of the reader may call OpenCASCADE: so not the first look counts, but most of them. (One
+/// that is there most of the time counts as OpenCASCADE's.)
 void look_while_busy(int, siginfo_t*, void* context)
 {
     const Place place = place_of_signal(context);
@@ -95,7 +95,8 @@ void take_over_handlers()
     action.sa_flags |= SA_RESTART;
     ::sigaction(SIGPROF, &action, nullptr);
     __asan_set_error_report_callback(end_by_report);
-    // The other sanitizer reports what is instrumented: the reader, and what it has of OpenCASCADE's headers.
+    // The other sanitizer reports what is instrumented: the reader, and what it has of
+    // OpenCASCADE's headers.
     __sanitizer_set_death_callback([] {
         const Place place = place_on_stack();
         end_here(place.owner == Owner::opencascade ? crashed : fault, place, "the report above,");
@@ -121,7 +122,8 @@ Outcome outcome_here(const CadReader& reads, const std::filesystem::path& file)
     set_timer({{}, {enough, 0}});
     try {
         return reads(file) ? accepted : refused;
-    } catch (const std::exception& wrong) { // no memory, too: OpenCASCADE throws something else then
+    } catch (const std::exception& wrong) { // no memory, too: OpenCASCADE throws something else
+                                            // then
         std::fprintf(stderr, "what(): %s\n", wrong.what());
     } catch (...) {
         std::fputs("what(): no std::exception\n", stderr);

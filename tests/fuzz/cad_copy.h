@@ -12,9 +12,10 @@ enum Outcome { refused = 40, accepted, crashed, too_much, endless, fault };
 /// Reads a file. @returns whether it is accepted
 using CadReader = std::function<bool(const std::filesystem::path& file)>;
 
-/// A copy of this process that reads one file after the other until one ends it: to copy a sanitized process takes longer than to read.
-/// OpenCASCADE may crash there, run out of memory or be busy without end. The same of the reader's own code is a fault: a report of a
-/// sanitizer, a signal, an exception, memory or most of the time taken by it, or a result that makes no sense.
+/// A copy of this process that reads one file after the other until one ends it: to copy a
+/// sanitized process takes longer than to read. OpenCASCADE may crash there, run out of memory or
+/// be busy without end. The same of the reader's own code is a fault: a report of a sanitizer, a
+/// signal, an exception, memory or most of the time taken by it, or a result that makes no sense.
 class CadCopy {
 public:
     /// @param file  what read() reads, whatever it holds then

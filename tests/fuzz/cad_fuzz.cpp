@@ -27,7 +27,8 @@
 #include "tests/fuzz/cad_search.h"
 #include "tests/fuzz/crash_owner.h"
 
-/// The counters of this program's branches, which libFuzzer looks at; the linker names their begin and end.
+/// The counters of this program's branches, which libFuzzer looks at; the linker names their begin
+/// and end.
 extern "C" __attribute__((visibility("hidden"))) std::uint8_t __start___sancov_cntrs[], __stop___sancov_cntrs[];
 
 namespace spia::fuzz {
@@ -116,14 +117,16 @@ public:
                 if (::getpid() == this_process)
                     std::abort();
             });
-        ::pthread_atfork(nullptr, nullptr, [] { // libFuzzer's handlers would take a crash there for one of this program
+        ::pthread_atfork(nullptr, nullptr, [] { // libFuzzer's handlers would take a crash there for
+                                                // one of this program
             for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
                 ::signal(signal, SIG_DFL);
         });
         std::string wrong(fault_of_owners());
         if (wrong.empty())
             wrong = unseen_fault(file_);
-        for (const std::string& seed : target.seeds) { // what OpenCASCADE makes once, the copies have
+        for (const std::string& seed : target.seeds) { // what OpenCASCADE makes once, the copies
+                                                       // have
             put(seed);
             if (!read_and_examine(file_) || CadCopy(read_and_examine, file_).read() != accepted)
                 wrong = "a seed is not accepted: " + seed;
@@ -154,11 +157,13 @@ public:
         const bool ended = outcome != accepted && outcome != refused;
         if (ended) {
             keep(copy_.place());
-            constexpr int each = 10; // to read all of them again would take most of the time; spia-fuzz-cad does
+            constexpr int each = 10; // to read all of them again would take most of the time;
+                                     // spia-fuzz-cad does
             if (++ended_ % each == 1)
                 read_as_users_do();
         }
-        if (ended || slow) // else most of the next ones would be made from such files, and the search would crawl
+        if (ended || slow) // else most of the next ones would be made from such files, and the
+                           // search would crawl
             coverage_.forget();
         constexpr long often = 100'000;
         if (files_ % often == 0)

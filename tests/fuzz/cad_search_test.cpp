@@ -26,7 +26,8 @@ TEST_P(Cad, DamagedFilesAreReadOrRefusedOrEndInTheirOwnProcess)
     EXPECT_EQ(found.files, files);
     EXPECT_GT(found.accepted, files / 100) << "small changes often hurt nothing";
     EXPECT_GT(found.refused, files / 20) << "and often do";
-    // OpenCASCADE's BREP reader crashes on every fiftieth, the others on one in four hundred; so must ours not.
+    // OpenCASCADE's BREP reader crashes on every fiftieth, the others on one in four hundred; so
+    // must ours not.
     EXPECT_LT(found.crashed, files / (std::string_view(GetParam()) == "brep" ? 25 : 150));
     EXPECT_LE(found.endless, files / 500);
 }
@@ -42,7 +43,8 @@ TEST_P(Cad, SeedsAreGood)
     std::filesystem::remove(file);
 }
 
-/// Files that once kept the program busy without end, or broke it: tests/fuzz/found/NAME, with the ending of its format.
+/// Files that once kept the program busy without end, or broke it: tests/fuzz/found/NAME, with the
+/// ending of its format.
 TEST_P(Cad, WhatOnceBrokeItIsAnsweredAtOnce)
 {
     const std::string ending = std::string(".") + GetParam();
@@ -59,7 +61,8 @@ TEST_P(Cad, WhatOnceBrokeItIsAnsweredAtOnce)
             try {
                 for (const Eigen::Vector3d& place : read_cad(entry.path(), {}, {}, {}, time_limit).soup.position)
                     ASSERT_TRUE(place.allFinite());
-            } catch (const InputError& error) { // in words, not by the end of the process that reads it
+            } catch (const InputError& error) { // in words, not by the end of the process that
+                                                // reads it
                 for (const char* bad : {"crashed", "ended from outside", "given up after"})
                     EXPECT_EQ(std::string(error.what()).find(bad), std::string::npos) << error.what();
             }

@@ -131,8 +131,9 @@ std::vector<std::string> with_numbers(std::vector<std::string> words)
 
 std::vector<CadTarget> make_targets()
 {
-    const std::vector<NurbsSurface> arch = {
-        surfaces::quarter_cylinder(20, 10)}; // as short as can be: the longer, the fewer can be tried
+    const std::vector<NurbsSurface> arch = {surfaces::quarter_cylinder(
+        20, 10)}; // as short as can be: the longer, the fewer can be
+                  // tried
     const std::vector<NurbsSurface> square = {surfaces::bilinear({0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {20, 20, 0})};
     const std::vector<std::vector<TrimLoop>> hole = {{triangular_hole()}};
     const auto step = [&](const fs::path& path) { write_step(path, arch); };
@@ -174,7 +175,8 @@ const CadTarget& cad_target(std::string_view name)
 
 bool read_and_examine(const fs::path& file)
 {
-    constexpr int most = 100; // larger ones would take the time of the readers, which are what is searched here
+    constexpr int most = 100; // larger ones would take the time of the readers, which are what is
+                              // searched here
     try {
         const CadContent cad = read_cad_unguarded(file);
         require_sound(cad);

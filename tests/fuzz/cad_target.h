@@ -10,7 +10,8 @@ namespace spia::fuzz {
 struct CadTarget {
     std::string name;               ///< "step", "igs" or "brep": the ending of its files
     std::vector<std::string> seeds; ///< good files, small
-    std::vector<std::string> spice; ///< words that mean something to the reader, and numbers that are too large
+    std::vector<std::string> spice; ///< words that mean something to the reader, and numbers that
+                                    ///< are too large
 };
 
 bool is_cad_target(std::string_view name);
@@ -20,7 +21,8 @@ const CadTarget& cad_target(std::string_view name);
 
 /// Reads and examines such a file in this process, which OpenCASCADE may crash.
 /// @returns whether it was accepted; an InputError is no fault and is false.
-/// @throws std::logic_error if what came of it makes no sense, and whatever else the reader should not have thrown
+/// @throws std::logic_error if what came of it makes no sense, and whatever else the reader should
+/// not have thrown
 bool read_and_examine(const std::filesystem::path& file);
 
 } // namespace spia::fuzz

@@ -28,7 +28,8 @@ std::string_view format()
 
 extern "C" size_t LLVMFuzzerMutate(std::uint8_t* data, size_t size, size_t most);
 
-/// CAD files are lists of numbers; changes of bytes alone are refused by the checks of their words, nearly all of them.
+/// CAD files are lists of numbers; changes of bytes alone are refused by the checks of their words,
+/// nearly all of them.
 extern "C" size_t LLVMFuzzerCustomMutator(std::uint8_t* data, size_t size, size_t most, unsigned seed)
 {
     std::mt19937 random(seed);

@@ -37,8 +37,8 @@ void require_finite(const std::vector<Eigen::Vector3d>& places)
         require(each.allFinite(), "a place that is no number was accepted");
 }
 
-/// Examines faces of a file; the doctor takes what comes. Larger files are left: they would take the time of the readers,
-/// which are what is searched here.
+/// Examines faces of a file; the doctor takes what comes. Larger files are left: they would take
+/// the time of the readers, which are what is searched here.
 void examine_faces(const PolygonSoup& soup)
 {
     constexpr int most = 60;

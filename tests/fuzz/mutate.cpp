@@ -22,7 +22,8 @@ std::string damaged(std::string content, const std::vector<std::string>& spice, 
         case 2: content[at] = char(content[at] ^ (1 << random() % 8)); break;
         case 3: content.erase(at, random() % 40); break;
         case 4: {
-            const size_t where = random() % 2 ? at : begin; // first: the same files on every compiler
+            const size_t where = random() % 2 ? at : begin; // first: the same files on every
+                                                            // compiler
             content.insert(where, spice[random() % spice.size()]);
             break;
         }

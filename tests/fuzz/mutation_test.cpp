@@ -31,7 +31,8 @@ class Format : public testing::TestWithParam<std::string> {};
 TEST_P(Format, DamagedFilesAreReadOrRefusedWithAWord)
 {
     const FuzzTarget& target = fuzz_target(GetParam());
-    const char* wanted = std::getenv("SPIA_FUZZ_ROUNDS"); // for a longer search, e.g. with the sanitizers
+    const char* wanted = std::getenv("SPIA_FUZZ_ROUNDS"); // for a longer search, e.g. with the
+                                                          // sanitizers
     const int rounds = wanted ? std::atoi(wanted) : 20000;
     std::mt19937 random(20250117);
     int accepted = 0;

@@ -1,5 +1,5 @@
-// A long search through damaged CAD files: spia-fuzz-cad FORMAT COUNT [FIRST]. With KEEP as the fourth argument it only writes them:
-// into files KEEP-NUMBER.FORMAT.
+// A long search through damaged CAD files: spia-fuzz-cad FORMAT COUNT [FIRST]. With KEEP as the
+// fourth argument it only writes them: into files KEEP-NUMBER.FORMAT.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

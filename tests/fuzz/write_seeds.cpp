@@ -1,4 +1,5 @@
-// Writes the seeds of a format as files, and its spice as a dictionary of libFuzzer: spia-fuzz-seeds FORMAT FOLDER
+// Writes the seeds of a format as files, and its spice as a dictionary of libFuzzer:
+// spia-fuzz-seeds FORMAT FOLDER
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>

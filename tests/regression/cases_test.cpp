@@ -1,4 +1,5 @@
-// ../shared/cases: small files of users, each with the right answer, by default options. Rows are those of the table there.
+// ../shared/cases: small files of users, each with the right answer, by default options. Rows are
+// those of the table there.
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <numbers>
@@ -107,7 +108,8 @@ TEST_F(Cases, K7VariantsThatPeersReadAreRead)
     EXPECT_NEAR(area(examined("25-strips.ply").mesh), 941.805, 1e-3);
     EXPECT_EQ(examined("25-strips.ply").mesh.triangles(), 96);
     EXPECT_EQ(examined("19-cps3.inp").mesh.triangles(), 800);
-    // 15 vertices with three of them replaced, 48 indices; its accessor says from 0 to 0.03, 0.02 and 0.01 m.
+    // 15 vertices with three of them replaced, 48 indices; its accessor says from 0 to 0.03, 0.02
+    // and 0.01 m.
     const PartFile sparse = examined("28-sparse.gltf");
     EXPECT_EQ(sparse.mesh.triangles(), 16);
     EXPECT_LT((sparse.mesh.position.rowwise().maxCoeff() - Eigen::Vector3d(30, 20, 10)).norm(), 1e-5);

@@ -1,4 +1,5 @@
-// Real parts: what the chain gave when it was last looked at. A change of these figures needs a reason in the commit.
+// Real parts: what the chain gave when it was last looked at. A change of these figures needs a
+// reason in the commit.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -20,10 +21,13 @@ struct RealPart {
     LengthUnit unit;
     int triangles;
     size_t loops;              ///< after a cut: the tunnel is a tube
-    bool as_given;             ///< solved with the hardening law up to 0.5 and every equation strict
-    double most_relaxed;       ///< share of the vertices; scans and crumpled or coarse meshes need some
+    bool as_given;             ///< solved with the hardening law up to 0.5 and every equation
+                               ///< strict
+    double most_relaxed;       ///< share of the vertices; scans and crumpled or coarse meshes need
+                               ///< some
     double thinning_max;       ///< over the faces
-    double thinning_tolerance; ///< 0.002 where no equation is relaxed; else wide: which ones are depends on the path
+    double thinning_tolerance; ///< 0.002 where no equation is relaxed; else wide: which ones are
+                               ///< depends on the path
     double deviation_rms_mm;   ///< at the automatic grid; may get smaller freely
 };
 

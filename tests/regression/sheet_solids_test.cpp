@@ -1,5 +1,5 @@
-// Solids of sheet as CAD systems gave them. The truth is their volume, integrated over the CAD faces, over the thickness: exactly the area
-// of the middle surface of plane and bent sheet.
+// Solids of sheet as CAD systems gave them. The truth is their volume, integrated over the CAD
+// faces, over the thickness: exactly the area of the middle surface of plane and bent sheet.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -79,7 +79,8 @@ TEST(SheetSolids, TheDrawnConeHasAMiddleSurfaceAsGoodAsItsSkin)
     options.cad.keep_triangles = true;
     options.cad.deflection = 0.03;
     const PartFile fine = examine_part(file, options);
-    // Its thickness is 0.944 to 1.057 mm and not quite 1 mm in the mean: 6.2e-4 here, and by finer triangles still 4.5e-4.
+    // Its thickness is 0.944 to 1.057 mm and not quite 1 mm in the mean: 6.2e-4 here, and by finer
+    // triangles still 4.5e-4.
     EXPECT_NEAR(area(fine.mesh) / (shapes::exact_volume(file) / fine.thickness_mm.value()), 1, 8e-4);
 
     const std::clock_t start = std::clock();
@@ -87,7 +88,8 @@ TEST(SheetSolids, TheDrawnConeHasAMiddleSurfaceAsGoodAsItsSkin)
     const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     RecordProperty("seconds", std::to_string(seconds));
 #ifdef NDEBUG
-    // 5 s of one free core, up to 15 s beside other programs; 25 to 37 s were taken for six attempts in vain.
+    // 5 s of one free core, up to 15 s beside other programs; 25 to 37 s were taken for six
+    // attempts in vain.
     EXPECT_LT(seconds, 20);
 #endif
     ASSERT_TRUE(part.remeshed) << "its own folds kept it from being remeshed";

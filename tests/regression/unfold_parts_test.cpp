@@ -1,5 +1,5 @@
-// Bent and flanged real parts, unfolded step by step without help: what came out when it was last looked at. A change of these
-// figures needs a reason in the commit.
+// Bent and flanged real parts, unfolded step by step without help: what came out when it was last
+// looked at. A change of these figures needs a reason in the commit.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>

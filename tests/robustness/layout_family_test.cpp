@@ -1,4 +1,5 @@
-// Plates with holes drawn at random, as patches: a few of them. All of them: spia-robustness --layouts 100.
+// Plates with holes drawn at random, as patches: a few of them. All of them: spia-robustness
+// --layouts 100.
 #include <gtest/gtest.h>
 
 #include "tests/robustness/layout_run.h"

@@ -13,9 +13,10 @@ struct LayoutRun {
     bool reached = false; ///< within the tolerance everywhere
 };
 
-/// blank_patches() of a plate with default options, within 1/1000 of its diagonal. Checked without them: as many loops of border as
-/// the plate has, every inner curve of two patches and every outer one of one, areas that add up to the plate's, control points of
-/// shared sides equal to the last bit, every patch proved to have no fold.
+/// blank_patches() of a plate with default options, within 1/1000 of its diagonal. Checked without
+/// them: as many loops of border as the plate has, every inner curve of two patches and every outer
+/// one of one, areas that add up to the plate's, control points of shared sides equal to the last
+/// bit, every patch proved to have no fold.
 LayoutRun run_layout(const shapes::RandomOutline& drawn);
 
 } // namespace spia

@@ -1,4 +1,5 @@
-// Runs every shape of the family and every mesh of a folder, and prints a table per family: what ended how, and what failed.
+// Runs every shape of the family and every mesh of a folder, and prints a table per family: what
+// ended how, and what failed.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -65,7 +66,8 @@ std::string necking(const BentRun& run)
     return fmt::format(" ({} neck, {} at ends of hinges)", run.necking, run.at_hinge_end);
 }
 
-/// A table of the bent parts, step by step and by others. @returns how many have no blank, or one with flips
+/// A table of the bent parts, step by step and by others. @returns how many have no blank, or one
+/// with flips
 int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const FlattenOptions& options)
 {
     fmt::print(
@@ -92,7 +94,8 @@ int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const
     return wrong;
 }
 
-/// A table of grids over outlines and corners drawn at random, 40 of each kind. @returns how many are not sound, or were refused
+/// A table of grids over outlines and corners drawn at random, 40 of each kind. @returns how many
+/// are not sound, or were refused
 int grid_all(const std::string& only, int each)
 {
     fmt::print(
@@ -123,7 +126,8 @@ int grid_all(const std::string& only, int each)
     return wrong;
 }
 
-/// A table of patches around the holes of plates drawn at random. @returns how many have none, or faulty ones
+/// A table of patches around the holes of plates drawn at random. @returns how many have none, or
+/// faulty ones
 int layout_all(int plates)
 {
     fmt::print("| plate | patches | divided | within the tolerance | seconds | fault |\n|---|---|---|---|---|---|\n");

@@ -24,8 +24,9 @@ struct ShapeRun {
     int crossings = 0, wound = 0; ///< of the blank with itself
 };
 
-/// Examines, cuts and unfolds a part in memory or from a file, and looks at the blank with other eyes than the solver's: exact
-/// orientation, finite and positive numbers, the volume of every face. Never throws.
+/// Examines, cuts and unfolds a part in memory or from a file, and looks at the blank with other
+/// eyes than the solver's: exact orientation, finite and positive numbers, the volume of every
+/// face. Never throws.
 ShapeRun run_shape(const PolygonSoup& soup, const ReadOptions& options, const FlattenOptions& flattening);
 ShapeRun run_shape(const std::filesystem::path& file, const ReadOptions& options, const FlattenOptions& flattening);
 

@@ -1,5 +1,5 @@
-// Bent parts, drawn at random, that no single stroke would make: all unfold without help, without a flip and with no distortion where
-// there need be none.
+// Bent parts, drawn at random, that no single stroke would make: all unfold without help, without a
+// flip and with no distortion where there need be none.
 #include <gtest/gtest.h>
 
 #include "engine/forming/material/material_library.h"
@@ -20,9 +20,11 @@ TEST_P(BentFamily, UnfoldsByItselfWithLessDistortionThanMethodsThatKnowNoMetal)
     EXPECT_EQ(run.converged, run.steps);
     EXPECT_EQ(run.overlaps, 0);
     const bool formable = run.necking == 0;
-    EXPECT_EQ(formable, GetParam().family != "closed box with lips") << run.strain; // corners without a radius
+    // corners without a radius
+    EXPECT_EQ(formable, GetParam().family != "closed box with lips") << run.strain;
 
-    constexpr double rounding = 1e-10; // ABF++ has no error but rounding, either, on sheet that is only bent
+    constexpr double rounding = 1e-10; // ABF++ has no error but rounding, either, on sheet that is
+                                       // only bent
     if (part.developable) {
         EXPECT_LT(run.strain, 1e-8);
         for (const MethodRun* other : {&run.abf, &run.arap}) {
@@ -32,7 +34,8 @@ TEST_P(BentFamily, UnfoldsByItselfWithLessDistortionThanMethodsThatKnowNoMetal)
         if (part.flat) {
             EXPECT_LT(*run.local.off_exact, 1e-7);
         }
-    } else if (formable) { // thickness follows the area; the angles alone are what ABF++ is made for
+    } else if (formable) { // thickness follows the area; the angles alone are what ABF++ is made
+                           // for
         EXPECT_LT(run.local.quality.area_rms, run.abf.quality.area_rms);
         EXPECT_LT(run.local.quality.area_rms, run.arap.quality.area_rms);
     }
@@ -45,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Bent, BentFamily, testing::ValuesIn(shapes::bent_family
     return name;
 });
 
-/// Seeds whose root is a cylinder around which their sheet goes more than once before it is unrolled.
+/// Seeds whose root is a cylinder around which their sheet goes more than once before it is
+/// unrolled.
 TEST(BentFamilyList, LotsThatWindAroundTheirRootUnfoldToo)
 {
     FlattenOptions options;

@@ -18,8 +18,8 @@ BentPart bent(const Profile& profile, double length, int triangles)
     return {std::move(part.mesh), std::move(part.flat), true};
 }
 
-// Each maker draws its measures at random, one after the other (not as arguments of one call, whose order is not set), and
-// makes one part of about n triangles.
+// Each maker draws its measures at random, one after the other (not as arguments of one call, whose
+// order is not set), and makes one part of about n triangles.
 
 BentPart hem(SeededRandom& random, int n)
 {
@@ -87,7 +87,8 @@ BentPart box(SeededRandom& random, int n, bool joined)
                         .depth = depth,
                         .height = height,
                         .lip = lip,
-                        .gap = random.between(11, 14), // walls and lips do not meet when they are laid flat
+                        .gap = random.between(11, 14), // walls and lips do not meet when they are
+                                                       // laid flat
                         .edge = std::sqrt(2 * area / n),
                         .joined = joined}),
             {},

@@ -12,7 +12,8 @@ namespace spia::shapes {
 /// A bent or flanged part and, where there is one, its exact flat layout.
 struct BentPart {
     TriMesh mesh;
-    std::optional<Eigen::Matrix2Xd> flat = {}; ///< 2 by #V, mm: without strain; none: not developable, or not known
+    std::optional<Eigen::Matrix2Xd> flat = {}; ///< 2 by #V, mm: without strain; none: not
+                                               ///< developable, or not known
     bool developable = false;                  ///< there is one, known or not
 };
 
@@ -25,8 +26,9 @@ struct BentShape {
     std::string name() const { return family + " " + std::to_string(number); }
 };
 
-/// At least 30: hems, folded returns, spirals, boxes with lips, Z and hat sections, lipped channels, double flanges with
-/// curved bend lines, hems on curved edges. @param triangles about how many each has @param seed of all random numbers
+/// At least 30: hems, folded returns, spirals, boxes with lips, Z and hat sections, lipped
+/// channels, double flanges with curved bend lines, hems on curved edges. @param triangles about
+/// how many each has @param seed of all random numbers
 std::vector<BentShape> bent_family(int triangles = 800, std::uint64_t seed = 1);
 
 } // namespace spia::shapes

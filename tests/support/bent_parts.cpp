@@ -47,15 +47,17 @@ TriMesh lipped_box(const LippedBox& shape)
 {
     const auto cells = [&](double length) { return std::max(1, int(std::lround(length / shape.edge))); };
     const double x = shape.width / 2, y = shape.depth / 2, h = shape.height;
-    const std::array<Eigen::Vector3d, 4> corner = {
-        {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}}}; // the inner side is up, the outer one down
+    const std::array<Eigen::Vector3d, 4> corner =
+        {{{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}}}; // the inner side is up, the outer one
+                                                            // down
     std::vector<Patch> patches = {
         {{corner[0], corner[3], corner[2], corner[1]}, cells(shape.depth), cells(shape.width)}};
     for (size_t k = 0; k < 4; ++k) {
         const Eigen::Vector3d a = corner[k], b = corner[(k + 1) % 4], along = (b - a).normalized(),
                               inwards = Eigen::Vector3d::UnitZ().cross(along), up = h * Eigen::Vector3d::UnitZ();
         const int n = cells((b - a).norm());
-        const double cell = (b - a).norm() / n, gap = std::ceil(shape.gap / cell) * cell; // at a vertex of the wall
+        // at a vertex of the wall
+        const double cell = (b - a).norm() / n, gap = std::ceil(shape.gap / cell) * cell;
         const Eigen::Vector3d apart = shape.joined ? Eigen::Vector3d::Zero() : Eigen::Vector3d(gap * along);
         const int fewer = shape.joined ? 0 : 2 * int(std::lround(gap / cell));
         patches.push_back({{a + apart, b - apart, b - apart + up, a + apart + up}, n - fewer, cells(h)});

@@ -17,13 +17,15 @@ struct Patch {
 /// Patches with their vertices joined where they are at one place.
 TriMesh patchwork(const std::vector<Patch>& patches);
 
-/// A box without a lid, sharp-edged, its walls joined at the corners, with a separate lip turned inwards on each wall.
+/// A box without a lid, sharp-edged, its walls joined at the corners, with a separate lip turned
+/// inwards on each wall.
 struct LippedBox {
     double width = 100, depth = 70, height = 30; ///< mm
     double lip = 8;                              ///< mm
     double gap = 10;                             ///< mm, between the end of a lip and the next wall
     double edge = 5;                             ///< mm, about, of the triangles
-    bool joined = true;                          ///< the walls; else they only have the bottom in common
+    bool joined = true;                          ///< the walls; else they only have the bottom in
+                                                 ///< common
 };
 TriMesh lipped_box(const LippedBox& shape = {});
 

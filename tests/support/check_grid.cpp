@@ -44,7 +44,8 @@ std::string fault_of_places(const GridResult& grid)
     return "";
 }
 
-/// Whether the place of a border node is on the edges of a side, and how far along: vertex index and share of the edge.
+/// Whether the place of a border node is on the edges of a side, and how far along: vertex index
+/// and share of the edge.
 double along_side(const MeshPoint& place, const GridResult& grid, const std::vector<int>& side)
 {
     const Eigen::Vector3i vertex = grid.filled->mesh.triangle.col(place.face);

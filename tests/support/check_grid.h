@@ -6,9 +6,9 @@
 
 namespace spia::shapes {
 
-/// What is wrong with a planar grid of a blank, empty if nothing: every cell strictly convex and counter-clockwise by exact
-/// arithmetic, every node where its triangle says, the corners on their vertices, the other border nodes on edges of the
-/// outline and in its order.
+/// What is wrong with a planar grid of a blank, empty if nothing: every cell strictly convex and
+/// counter-clockwise by exact arithmetic, every node where its triangle says, the corners on their
+/// vertices, the other border nodes on edges of the outline and in its order.
 std::string fault_of(const GridResult& grid, const BlankBoundary& boundary);
 
 struct RandomGrid {

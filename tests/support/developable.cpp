@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Parameters along the generators of a strip mesh: 0, 1, ..., rows on every other one, 0, 1/2, 3/2, ..., rows on the
-/// ones between, so that inner triangles can be equilateral.
+/// Parameters along the generators of a strip mesh: 0, 1, ..., rows on every other one, 0, 1/2,
+/// 3/2, ..., rows on the ones between, so that inner triangles can be equilateral.
 std::vector<double> generator_points(int column, int rows)
 {
     std::vector<double> t = {0};
@@ -26,8 +26,8 @@ std::vector<double> generator_points(int column, int rows)
     return t;
 }
 
-/// Triangles between `columns` + 1 generators, each with its generator_points. Turning from the direction of growing
-/// column to that of growing t is counter-clockwise.
+/// Triangles between `columns` + 1 generators, each with its generator_points. Turning from the
+/// direction of growing column to that of growing t is counter-clockwise.
 /// @param place  place(column, t, x, flat) sets the position in space and in the plane
 template <class Place> DevelopablePart strips(int columns, int rows, const Place& place)
 {
@@ -48,7 +48,8 @@ template <class Place> DevelopablePart strips(int columns, int rows, const Place
     part.mesh.triangle.resize(3, columns * (2 * rows + 1));
     int f = 0;
     for (int c = 0; c < columns; ++c) {
-        int i = 0, j = 0; // walk along both generators, and always cut off the corner that lies behind
+        int i = 0, j = 0; // walk along both generators, and always cut off the corner that lies
+                          // behind
         const int last_i = int(t[c].size()) - 1, last_j = int(t[c + 1].size()) - 1;
         while (i < last_i || j < last_j) {
             const int a = first[c] + i, b = first[c + 1] + j;
@@ -110,8 +111,8 @@ DevelopablePart cone_sector(const ConeSector& shape)
 {
     const double sector = shape.sector_deg * pi / 180, half_angle = shape.half_angle_deg * pi / 180;
     const double ratio = shape.far / shape.near;
-    // Rows at geometric distances keep the triangles similar: `columns` strips of the angle sqrt(3) / 2
-    // ln(ratio) / rows.
+    // Rows at geometric distances keep the triangles similar: `columns` strips of the angle sqrt(3)
+    // / 2 ln(ratio) / rows.
     const double columns_per_row = sector * std::sin(half_angle) / (std::sqrt(3.0) / 2 * std::log(ratio));
     const int columns = std::max(2, int(std::lround(std::sqrt(shape.triangles * columns_per_row / 2))));
     const int rows = std::max(1, int(std::lround((double(shape.triangles) / columns - 1) / 2)));

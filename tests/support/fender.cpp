@@ -29,7 +29,8 @@ Vector3d skin(double u, double v)
     return {u + slant * v, v, z};
 }
 
-/// The frame at the edge where the flange begins: along the edge, across it in the tangent plane, normal.
+/// The frame at the edge where the flange begins: along the edge, across it in the tangent plane,
+/// normal.
 Eigen::Matrix3d edge_frame(double u)
 {
     constexpr double step = 1e-3; // mm

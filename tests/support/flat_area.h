@@ -3,7 +3,8 @@
 
 namespace spia::shapes {
 
-/// mm2, of counter-clockwise triangles in the plane; turned ones count below zero. @param position 2 by #V; @param triangle 3 by #F
+/// mm2, of counter-clockwise triangles in the plane; turned ones count below zero. @param position
+/// 2 by #V; @param triangle 3 by #F
 inline double flat_area(const Eigen::Matrix2Xd& position, const Eigen::Matrix3Xi& triangle)
 {
     double sum = 0;

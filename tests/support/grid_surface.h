@@ -15,11 +15,12 @@ struct GridPlan {
     bool along = false;  ///< the last row of vertices is the first one
 };
 
-/// Two triangles per cell, split along alternating diagonals. @param place u, v from 0 to 1 -> point, mm; turning from u to v
-/// is counter-clockwise seen from the outer side
+/// Two triangles per cell, split along alternating diagonals. @param place u, v from 0 to 1 ->
+/// point, mm; turning from u to v is counter-clockwise seen from the outer side
 TriMesh grid_surface(const GridPlan& plan, const std::function<Eigen::Vector3d(double u, double v)>& place);
 
-/// A pipe around z, open at both ends. @param top its radius at the upper end, mm: a frustum of a cone where it differs
+/// A pipe around z, open at both ends. @param top its radius at the upper end, mm: a frustum of a
+/// cone where it differs
 TriMesh pipe(double radius, double top, double height, int around, int rows);
 
 using Cell = std::array<int, 3>;

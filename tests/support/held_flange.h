@@ -18,15 +18,17 @@ struct HeldFlange {
     std::function<double(double R)> slope = [](double) { return 0.; };
 };
 
-/// Where its rings lie when it is unfolded onto the plane of the held ring, or a surface of revolution through it, inwards or outwards as the meridian begins.
+/// Where its rings lie when it is unfolded onto the plane of the held ring, or a surface of
+/// revolution through it, inwards or outwards as the meridian begins.
 struct FlangeBlank {
     Eigen::VectorXd s;         ///< mm along the meridian, from the held ring on
     Eigen::VectorXd R;         ///< mm
     Eigen::VectorXd thickness; ///< mm, of the formed flange
 };
 
-/// Solved along the meridian with nothing of the engine's solver: d(N_s r)/ds = N_theta dr/ds, N = h sigma of the total Hencky
-/// theory; shooting from the free edge, where N_s = 0, with the classical Runge-Kutta method. For strains up to the uniform one.
+/// Solved along the meridian with nothing of the engine's solver: d(N_s r)/ds = N_theta dr/ds, N =
+/// h sigma of the total Hencky theory; shooting from the free edge, where N_s = 0, with the
+/// classical Runge-Kutta method. For strains up to the uniform one.
 FlangeBlank held_flange_blank(const HeldFlange& flange, int steps = 400);
 
 } // namespace spia::shapes

@@ -267,7 +267,8 @@ Content read_mfem(const std::filesystem::path& file)
     words.expect("patches");
     Content content;
     std::map<int, std::vector<double>> knots_of;
-    std::map<int, std::pair<PatchSide, int>> side_of_edge; // with the corner at which the side begins
+    std::map<int, std::pair<PatchSide, int>> side_of_edge; // with the corner at which the side
+                                                           // begins
     for (size_t p = 0; p < corner.size(); ++p) {
         words.expect("knotvectors");
         require(words.integer() == 2, "two knot vectors");
@@ -294,8 +295,8 @@ Content read_mfem(const std::filesystem::path& file)
         for (const int each : c)
             require(each >= 0 && each < vertices, "corner");
         const std::array<std::pair<int, int>, 4> ends{{{c[0], c[1]}, {c[1], c[2]}, {c[3], c[2]}, {c[0], c[3]}}};
-        for (const Side side :
-             sides) { // the knot vector of an edge is that of the patch, turned if the edge runs the other way
+        for (const Side side : sides) { // the knot vector of an edge is that of the patch, turned
+                                        // if the edge runs the other way
             const auto [from, to] = ends[size_t(side)];
             const Edge edge = edges.at(std::minmax(from, to));
             std::vector<double> along = knots[side == Side::v0 || side == Side::v1 ? 0 : 1];

@@ -4,7 +4,8 @@
 
 #include "engine/nurbs/multi_patch.h"
 
-/// Readers of isogeometric files as the programs that take them read them, without a line of the writers.
+/// Readers of isogeometric files as the programs that take them read them, without a line of the
+/// writers.
 namespace spia::iga {
 
 struct Content {

@@ -16,7 +16,8 @@ NurbsSurface exchanged(const NurbsSurface& surface);
 /// @param rational  uneven weights
 NurbsSurface curved(double size, bool rational);
 
-/// A second patch that goes on beyond u = 1 of the first; its side u = 0 is that side to the last bit.
+/// A second patch that goes on beyond u = 1 of the first; its side u = 0 is that side to the last
+/// bit.
 NurbsSurface beyond(const NurbsSurface& first);
 
 struct Sample {
@@ -24,11 +25,12 @@ struct Sample {
     MultiPatch patches;
 };
 
-/// One patch; two, whose parameters run the same way, against each other, u along v, u against v; a rational one beside
-/// a polynomial one; five around a corner; each polynomial and rational.
+/// One patch; two, whose parameters run the same way, against each other, u along v, u against v; a
+/// rational one beside a polynomial one; five around a corner; each polynomial and rational.
 std::vector<Sample> samples();
 
-/// Radians, between the normals of two patches at their common sides, as the certificate measures it.
+/// Radians, between the normals of two patches at their common sides, as the certificate measures
+/// it.
 double greatest_angle(const MultiPatch& patches);
 
 } // namespace spia::patches

@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A height field; the vertical distance times the cosine of the slope is the distance to first order.
+/// A height field; the vertical distance times the cosine of the slope is the distance to first
+/// order.
 KnownSheet height_field(std::string name, double side, std::function<double(double, double)> z)
 {
     KnownSheet sheet;

@@ -18,7 +18,8 @@ namespace {
 
 static_assert(sizeof(float) == 4);
 
-template <class Number> void append(std::string& bytes, Number value) // little-endian machines only, like STL itself
+// little-endian machines only, like STL itself
+template <class Number> void append(std::string& bytes, Number value)
 {
     char raw[sizeof value];
     std::memcpy(raw, &value, sizeof value);

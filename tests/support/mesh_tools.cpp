@@ -12,7 +12,8 @@
 namespace spia::shapes {
 namespace {
 
-/// new_place[i] for every i: a permutation that is the same on every platform, unlike std::shuffle's.
+/// new_place[i] for every i: a permutation that is the same on every platform, unlike
+/// std::shuffle's.
 std::vector<int> shuffled(int count, std::mt19937_64& random)
 {
     std::vector<int> order(count);

@@ -21,7 +21,8 @@ struct Permuted {
     std::vector<int> face;   ///< face f of the given mesh is face[f] of the new one
 };
 
-/// The same mesh with vertices and faces in another order, and each face beginning at another of its corners.
+/// The same mesh with vertices and faces in another order, and each face beginning at another of
+/// its corners.
 Permuted permuted(const TriMesh& mesh, std::uint64_t seed);
 
 /// Evenly distributed over all rotations; the same for the same seed.
@@ -35,8 +36,10 @@ PolygonSoup soup_of(const TriMesh& mesh); ///< what a file of it is read as
 double mean_edge(const TriMesh& mesh);             ///< mm, every edge counted once
 Eigen::VectorXd edge_lengths(const TriMesh& mesh); ///< mm, every edge once
 Eigen::VectorXd least_angles(const TriMesh& mesh); ///< #F, radians
-Eigen::VectorXd angle_sums(const TriMesh& mesh);   ///< #V, radians: 2 pi at an inner vertex without curvature
-double share_below(const Eigen::VectorXd& values, double limit); ///< the fraction of values below the limit
+Eigen::VectorXd angle_sums(const TriMesh& mesh);   ///< #V, radians: 2 pi at an inner vertex without
+                                                   ///< curvature
+/// the fraction of values below the limit
+double share_below(const Eigen::VectorXd& values, double limit);
 
 /// The slope of the least-squares line through (log h, log error): 2 for a method of second order.
 double convergence_order(const std::vector<double>& h, const std::vector<double>& error);

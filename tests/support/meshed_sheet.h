@@ -18,10 +18,12 @@ struct MeshedSheet {
 /// The nodes of even lines on the mesh of a sheet, cells by cells.
 QuadGrid even_grid(const TriMesh& mesh, int mesh_cells, int cells);
 
-/// How far the surface is from the sheet, by its closed form, at places that are no borders of spans.
+/// How far the surface is from the sheet, by its closed form, at places that are no borders of
+/// spans.
 double distance_from_sheet(const NurbsSurface& surface, const KnownSheet& sheet);
 
-/// Both ways, none by the code under test: the other way from dense places of the sheet to fine triangles of the surface.
+/// Both ways, none by the code under test: the other way from dense places of the sheet to fine
+/// triangles of the surface.
 double independent_deviation(const NurbsSurface& surface, const KnownSheet& sheet);
 
 } // namespace spia::shapes

@@ -88,20 +88,22 @@ private:
         return edge_((uv(mesh_.from_vertex_handle(h)) + uv(mesh_.to_vertex_handle(h))) / 2);
     }
     bool stays_upright(Vertex v, const Vector2d& p, Vertex ignored = Vertex()) const;
-    bool may_collapse(Halfedge h); // not const only because OpenMesh marks the neighbours while it looks
+    bool may_collapse(Halfedge h); // not const only because OpenMesh marks the neighbours while it
+                                   // looks
     bool may_flip(OpenMesh::EdgeHandle e) const;
     Vector2d step_towards_centre(Vertex v) const;
 
     const Region& region_;
     const Surface& surface_;
-    const std::function<double(const Vector2d&)>& edge_; ///< wanted edge length, mm, at a parameter point
+    const std::function<double(const Vector2d&)>& edge_; ///< wanted edge length, mm, at a parameter
+                                                         ///< point
     HalfedgeMesh mesh_;
     OpenMesh::VPropHandleT<OpenMesh::Vec2d> parameter_;
     OpenMesh::VPropHandleT<int> corner_; ///< 1: stays where it is
 };
 
-/// No triangle around v turns over in the parameter plane if v moves to p; triangles with `ignored` do not
-/// count.
+/// No triangle around v turns over in the parameter plane if v moves to p; triangles with `ignored`
+/// do not count.
 bool Remesher::stays_upright(Vertex v, const Vector2d& p, Vertex ignored) const
 {
     constexpr double thinnest = 1e-3; // of the square of the longest side
@@ -178,7 +180,8 @@ bool Remesher::may_flip(OpenMesh::EdgeHandle e) const
     return doubled_area(c, d, b) > thinnest && doubled_area(d, c, a) > thinnest;
 }
 
-/// Flips edges that bring inner vertices nearer to six neighbours and boundary vertices nearer to four.
+/// Flips edges that bring inner vertices nearer to six neighbours and boundary vertices nearer to
+/// four.
 void Remesher::even_valences()
 {
     const auto excess = [&](Vertex v) { return int(mesh_.valence(v)) - (mesh_.is_boundary(v) ? 4 : 6); };
@@ -217,9 +220,9 @@ void Remesher::enlarge_angles()
     }
 }
 
-/// The way in the parameter plane to the centre of the triangles around an inner vertex, or of the two
-/// neighbours along the boundary. Triangles weigh as many as they stand for: area per square of the wanted
-/// edge.
+/// The way in the parameter plane to the centre of the triangles around an inner vertex, or of the
+/// two neighbours along the boundary. Triangles weigh as many as they stand for: area per square of
+/// the wanted edge.
 Vector2d Remesher::step_towards_centre(Vertex v) const
 {
     const Vector3d here = x(v);
@@ -315,8 +318,8 @@ std::vector<int> Remesher::corners() const
     return list;
 }
 
-/// Every triangle in four, new vertices in the middle of the edges. Those between boundary vertices come onto
-/// the boundary when the mesh is relaxed.
+/// Every triangle in four, new vertices in the middle of the edges. Those between boundary vertices
+/// come onto the boundary when the mesh is relaxed.
 void quarter(ParametricMesh& coarse, std::vector<Vector2d>& parameter)
 {
     std::map<std::pair<int, int>, int> middle; // edge -> new vertex
@@ -363,7 +366,8 @@ double first_size(const std::vector<std::pair<double, double>>& parts, int trian
 Remesher start(const Region& region, const Surface& surface, const std::function<double(const Vector2d&)>& edge,
                double spacing)
 {
-    // Halves, not the largest that fits: a lattice just below the length that is collapsed would stay or go as a whole.
+    // Halves, not the largest that fits: a lattice just below the length that is collapsed would
+    // stay or go as a whole.
     while (spacing > region.smallest_feature / 2)
         spacing /= 2;
     const PlaneMesh plane = cut_lattice(region, spacing);
@@ -385,7 +389,8 @@ void polish(Remesher& remesher)
 ParametricMesh mesh_surface(const Region& region, const Surface& surface, int triangles,
                             const std::function<double(const Vector2d&)>& longest)
 {
-    constexpr int direct = 60000; // larger meshes are made from smaller ones, four triangles out of one
+    constexpr int direct = 60000; // larger meshes are made from smaller ones, four triangles out of
+                                  // one
     int levels = 0, first_triangles = triangles;
     while (first_triangles > direct) {
         first_triangles /= 4;
@@ -402,8 +407,9 @@ ParametricMesh mesh_surface(const Region& region, const Surface& surface, int tr
     const Remesher rough = attempt(box_edge);
     size = first_size(rough.areas_and_edges(), first_triangles);
 
-    // Lengths between those that are split and those that are collapsed stay as they are, so the number reached follows
-    // the wanted length only roughly, and an existing mesh not at all: start again with the length corrected.
+    // Lengths between those that are split and those that are collapsed stay as they are, so the
+    // number reached follows the wanted length only roughly, and an existing mesh not at all: start
+    // again with the length corrected.
     ParametricMesh result;
     std::vector<int> corners;
     double least_miss = 1e30, best_size = size;

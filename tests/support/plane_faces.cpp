@@ -229,7 +229,8 @@ PlaneLoop sheet_section(const std::vector<ProfilePiece>& pieces, double thicknes
     Eigen::Vector2d at(0, 0);
     double heading = 0;
     const auto along = [](double angle) { return Eigen::Vector2d(std::cos(angle), std::sin(angle)); };
-    const auto across = [](double angle) { return Eigen::Vector2d(std::sin(angle), -std::cos(angle)); }; // to the right
+    // to the right
+    const auto across = [](double angle) { return Eigen::Vector2d(std::sin(angle), -std::cos(angle)); };
     const auto mark = [&] {
         left.push_back(at);
         right.push_back(at + thickness * across(heading));
@@ -242,7 +243,8 @@ PlaneLoop sheet_section(const std::vector<ProfilePiece>& pieces, double thicknes
             continue;
         }
         const double turn_ = piece.angle > 0 ? 1 : -1;
-        const double radius = turn_ > 0 ? piece.radius : piece.radius + thickness; // of the left side
+        // of the left side
+        const double radius = turn_ > 0 ? piece.radius : piece.radius + thickness;
         const Eigen::Vector2d middle = at - turn_ * radius * across(heading);
         const int n = std::max(1, int(std::ceil(chords * std::abs(piece.angle) / (std::numbers::pi / 2) - 1e-9)));
         const double from = heading;

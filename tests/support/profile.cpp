@@ -11,7 +11,8 @@ Eigen::Vector2d along(const Profile::Piece& piece, double t)
 {
     const double c = std::cos(piece.heading), s = std::sin(piece.heading);
     const double turn = piece.curvature * t;
-    // In the frame of the first tangent; the second row is (1 - cos turn) / curvature without cancellation.
+    // In the frame of the first tangent; the second row is (1 - cos turn) / curvature without
+    // cancellation.
     const double ahead = piece.curvature == 0 ? t : std::sin(turn) / piece.curvature;
     const double aside = piece.curvature == 0 ? 0 : 2 * std::pow(std::sin(turn / 2), 2) / piece.curvature;
     return piece.start + Eigen::Vector2d(c * ahead - s * aside, s * ahead + c * aside);

@@ -4,7 +4,8 @@
 
 namespace spia::shapes {
 
-/// A planar curve of straight lines and arcs, drawn like with a pen; tangents are continuous where pieces meet.
+/// A planar curve of straight lines and arcs, drawn like with a pen; tangents are continuous where
+/// pieces meet.
 class Profile {
 public:
     /// @param heading the angle of the first tangent against the first axis, radians
@@ -32,7 +33,8 @@ private:
     std::vector<Piece> pieces_;
 };
 
-/// Arc lengths of points about `wanted` mm apart, with a point wherever two pieces meet and inside every arc.
+/// Arc lengths of points about `wanted` mm apart, with a point wherever two pieces meet and inside
+/// every arc.
 std::vector<double> even_spacing(const Profile& profile, double wanted);
 
 } // namespace spia::shapes

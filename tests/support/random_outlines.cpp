@@ -122,7 +122,8 @@ Points maze(SeededRandom& random)
         const Field to = {from.first + way.first, from.second + way.second};
         bool free = !taken.contains(to);
         for (int i = -1; i <= 1; ++i)
-            for (int j = -1; j <= 1; ++j) { // nothing around but what touches the field it came from
+            for (int j = -1; j <= 1; ++j) { // nothing around but what touches the field it came
+                                            // from
                 const Field other = {to.first + i, to.second + j};
                 free = free && (!taken.contains(other) || other == from ||
                                 (std::abs(other.first - from.first) + std::abs(other.second - from.second) == 1 &&
@@ -263,7 +264,8 @@ TriMesh without(const TriMesh& mesh, const std::vector<char>& removed)
     return result;
 }
 
-/// Cuts up to `wanted` holes with jagged edges into a mesh: around random vertices far enough from everything that is cut.
+/// Cuts up to `wanted` holes with jagged edges into a mesh: around random vertices far enough from
+/// everything that is cut.
 TriMesh with_holes(const TriMesh& mesh, int wanted, SeededRandom& random)
 {
     std::vector<int> outline = boundary_loops(mesh)[0];
@@ -297,7 +299,8 @@ TriMesh with_holes(const TriMesh& mesh, int wanted, SeededRandom& random)
             const Eigen::Vector3i t = mesh.triangle.col(f);
             removed[size_t(f)] |= char(hole[size_t(t[0])] && hole[size_t(t[1])] && hole[size_t(t[2])]);
         }
-        if (boundary_loops(without(mesh, removed)).size() != size_t(cut + 2)) { // it would leave an island: not there
+        // it would leave an island: not there
+        if (boundary_loops(without(mesh, removed)).size() != size_t(cut + 2)) {
             for (int f = 0; f < mesh.triangles(); ++f) {
                 const Eigen::Vector3i t = mesh.triangle.col(f);
                 if (hole[size_t(t[0])] && hole[size_t(t[1])] && hole[size_t(t[2])])
@@ -313,7 +316,8 @@ TriMesh with_holes(const TriMesh& mesh, int wanted, SeededRandom& random)
     return without(mesh, removed);
 }
 
-/// The inner angle of a loop at vertex i, as its points at an arc length before and behind it see it.
+/// The inner angle of a loop at vertex i, as its points at an arc length before and behind it see
+/// it.
 double inner_angle(const Points& loop, size_t i, double reach)
 {
     const size_t n = loop.size();
@@ -394,7 +398,8 @@ RandomOutline random_outline(int kind, int number)
     RandomOutline result;
     result.name = fmt::format("{} {}", outline_kind(kind), number);
     const Points corners = turned_and_stretched(draw[size_t(kind)](random), random);
-    // mesh_polygon() refuses some outlines with many points on a straight line that rounding has bent: other points then.
+    // mesh_polygon() refuses some outlines with many points on a straight line that rounding has
+    // bent: other points then.
     for (int pieces = pieces_of_outline; result.part.triangles() == 0; pieces += 7)
         result.part = meshed_outline(divided(corners, length(corners) / pieces));
     if (kind == outline_kinds - 1)

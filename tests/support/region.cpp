@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The lattice, with the signed distance at every vertex. Vertices close to the boundary are moved onto it, so that no
-/// sliver is cut off beside them.
+/// The lattice, with the signed distance at every vertex. Vertices close to the boundary are moved
+/// onto it, so that no sliver is cut off beside them.
 struct Lattice {
     std::vector<Vector2d> position;
     std::vector<double> distance;

@@ -8,11 +8,13 @@ namespace spia::shapes {
 
 /// Where a surface is defined.
 struct Region {
-    /// Negative inside, zero on the boundary, positive outside; near the boundary about the distance to it, mm.
+    /// Negative inside, zero on the boundary, positive outside; near the boundary about the
+    /// distance to it, mm.
     std::function<double(const Eigen::Vector2d&)> distance;
     Eigen::Vector2d low, high;            ///< a box around it
     std::vector<Eigen::Vector2d> corners; ///< sharp turns of the boundary, where a vertex must lie
-    double smallest_feature = 1e30; ///< mm, radius of the smallest hole or rounding, width of the narrowest bridge
+    double smallest_feature = 1e30;       ///< mm, radius of the smallest hole or rounding, width of
+                                          ///< the narrowest bridge
 };
 
 /// @name Signed distances, negative inside
@@ -31,13 +33,15 @@ struct Circle {
     Eigen::Vector2d centre;
     double radius; ///< mm
 
-    double distance(const Eigen::Vector2d& p) const { return (p - centre).norm() - radius; } ///< negative inside
+    /// negative inside
+    double distance(const Eigen::Vector2d& p) const { return (p - centre).norm() - radius; }
 };
 
 /// A rectangle with round holes.
 Region perforated(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const std::vector<Circle>& holes);
 
-/// An upper limit of the edge length, mm: eight edges around each hole, growing with the distance to it.
+/// An upper limit of the edge length, mm: eight edges around each hole, growing with the distance
+/// to it.
 std::function<double(const Eigen::Vector2d&)> edges_around(const std::vector<Circle>& holes);
 
 struct PlaneMesh {
@@ -46,7 +50,8 @@ struct PlaneMesh {
     std::vector<int> corner;   ///< the vertex at each of the region's corners
 };
 
-/// A lattice of equilateral triangles, cut along the boundary of the region. Its triangles at the boundary may be thin.
+/// A lattice of equilateral triangles, cut along the boundary of the region. Its triangles at the
+/// boundary may be thin.
 /// @param spacing  mm; below the smallest feature, or holes are lost
 PlaneMesh cut_lattice(const Region& region, double spacing);
 

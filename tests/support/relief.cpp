@@ -8,7 +8,8 @@ namespace spia::shapes {
 
 Step::Step(double depth, double angle_deg, double radius) : depth_(depth), radius_(radius)
 {
-    const double steepest = std::acos(1 - std::min(1.0, depth / (2 * radius))); // two arcs without a wall between
+    // two arcs without a wall between
+    const double steepest = std::acos(1 - std::min(1.0, depth / (2 * radius)));
     const double angle = std::min(angle_deg * std::numbers::pi / 180, steepest);
     const double wall_depth = std::max(0.0, depth - 2 * radius * (1 - std::cos(angle)));
     slope_ = std::tan(angle);

@@ -2,8 +2,9 @@
 
 namespace spia::shapes {
 
-/// The wall of a pocket, a bead or an emboss: how far the surface has sunk at a distance t outside the upper
-/// edge. Zero for t <= 0, then an arc, a straight wall, an arc back to level; smooth (C1).
+/// The wall of a pocket, a bead or an emboss: how far the surface has sunk at a distance t outside
+/// the upper edge. Zero for t <= 0, then an arc, a straight wall, an arc back to level; smooth
+/// (C1).
 class Step {
 public:
     /// @param angle_deg  slope of the wall; less where two arcs alone are already `depth` deep

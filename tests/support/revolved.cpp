@@ -21,8 +21,8 @@ using std::numbers::pi;
 
 constexpr double radians(double degrees) { return degrees * pi / 180; }
 
-/// A meridian of any kind: a point (r, z) for every arc length, and the arc lengths that must become rows of
-/// vertices.
+/// A meridian of any kind: a point (r, z) for every arc length, and the arc lengths that must
+/// become rows of vertices.
 struct Meridian {
     std::function<Eigen::Vector2d(double s)> at;
     std::vector<double> rows; ///< ascending, first and last included
@@ -47,7 +47,8 @@ AxisymmetricPart revolve(const Meridian& meridian, int triangles)
     double area = 0; // only roughly
     for (int i = 0; i < 1000; ++i)
         area += 2 * pi * length / 1000 * meridian.at(meridian.rows.front() + (i + 0.5) / 1000 * length).x();
-    const double edge = std::sqrt(4 / std::sqrt(3.0) * area / triangles); // of equilateral triangles
+    // of equilateral triangles
+    const double edge = std::sqrt(4 / std::sqrt(3.0) * area / triangles);
     const std::vector<RingPlan> plan =
         plan_rings(row_positions(meridian, edge), edge, 1, meridian.at, [](double r) { return 2 * pi * r; });
 

@@ -5,7 +5,8 @@
 
 #include "engine/mesh/tri_mesh.h"
 
-/// Surfaces of revolution around z. Seen from above (+z) the triangles around the pole are counter-clockwise.
+/// Surfaces of revolution around z. Seen from above (+z) the triangles around the pole are
+/// counter-clockwise.
 namespace spia::shapes {
 
 struct AxisymmetricPart {
@@ -23,9 +24,10 @@ AxisymmetricPart axisymmetric(const Eigen::Matrix2Xd& meridian, int triangles);
 /// Reads the columns r_mm,z_mm of a CSV file. @throws InputError naming the line
 Eigen::Matrix2Xd read_meridian(const std::filesystem::path& file);
 
-/// A flat bottom, a vertical wall below it, a sharp edge between. Without friction no force acts along the
-/// wall: the bottom stays as it is and the wall is compressed around only. For any hardening curve the radius
-/// of the blank is rw (1 + (1 + m) H / rw)^(1 / (1 + m)) with m = r / (1 + r) and r the normal anisotropy.
+/// A flat bottom, a vertical wall below it, a sharp edge between. Without friction no force acts
+/// along the wall: the bottom stays as it is and the wall is compressed around only. For any
+/// hardening curve the radius of the blank is rw (1 + (1 + m) H / rw)^(1 / (1 + m)) with m = r / (1
+/// + r) and r the normal anisotropy.
 struct SharpCup {
     double radius = 40; ///< mm, of the bottom and the wall
     double height = 30; ///< mm, of the wall
@@ -35,7 +37,8 @@ struct SharpCup {
 };
 AxisymmetricPart sharp_cup(const SharpCup& shape = {});
 
-/// A spherical cap that runs through a die radius into a flat flange. The pole is the highest point, the flange z = 0.
+/// A spherical cap that runs through a die radius into a flat flange. The pole is the highest
+/// point, the flange z = 0.
 struct Dome {
     double radius = 50;         ///< mm, of the sphere
     double die_radius = 10;     ///< mm
@@ -50,7 +53,8 @@ AxisymmetricPart dome(const Dome& shape = {});
 /// A cap of a sphere, cut by a plane; the pole is the highest point, z = 0 the plane of the cut.
 struct SphereCap {
     double radius = 50;         ///< mm
-    double half_angle_deg = 60; ///< between the axis and the rim, seen from the centre; 90 is a hemisphere
+    double half_angle_deg = 60; ///< between the axis and the rim, seen from the centre; 90 is a
+                                ///< hemisphere
     int triangles = 5000;
 
     double area() const;

@@ -84,7 +84,8 @@ TriMesh stitch_rings(const std::vector<Eigen::Matrix3Xd>& rings)
     for (size_t k = 0; k < rings.size(); ++k) {
         const int n = int(rings[k].cols()), neighbours = (k > 0) + (k + 1 < rings.size());
         vertices += n;
-        triangles += n > 1 ? n * neighbours : 0; // one triangle per step along either ring of a pair
+        triangles += n > 1 ? n * neighbours : 0; // one triangle per step along either ring of a
+                                                 // pair
     }
     TriMesh mesh;
     mesh.position.resize(3, vertices);

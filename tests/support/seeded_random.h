@@ -4,7 +4,8 @@
 
 namespace spia::shapes {
 
-/// Random numbers that are the same on every platform, unlike those of the standard library's distributions.
+/// Random numbers that are the same on every platform, unlike those of the standard library's
+/// distributions.
 class SeededRandom {
 public:
     explicit SeededRandom(std::uint64_t seed) : random_(seed) {}

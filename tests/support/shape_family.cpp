@@ -49,7 +49,8 @@ TriMesh undercut(SeededRandom& random, int n)
 TriMesh box_with_walls(SeededRandom& random, int n)
 {
     const double width = random.between(40, 120), depth = random.between(40, 120), height = random.between(10, 90);
-    const double lean = random.between(-0.35, 0.25); // of the height: below zero the mouth is narrower than the floor
+    const double lean = random.between(-0.35, 0.25); // of the height: below zero the mouth is
+                                                     // narrower than the floor
     const int side = std::max(2, int(std::lround(std::sqrt(n / 2.0 / (1 + 4 * height / width)))));
     const int up = std::max(1, int(std::lround(side * height / width)));
     std::set<Cell> block;
@@ -262,7 +263,8 @@ TriMesh needles(SeededRandom& random, int n)
     for (const auto& t : mesh.triangle.colwise())
         faces.emplace_back(t);
     const size_t count = faces.size();
-    for (size_t f = 0; f < count; f += 20) { // a vertex inside, a share off one corner or off one side
+    for (size_t f = 0; f < count; f += 20) { // a vertex inside, a share off one corner or off one
+                                             // side
         const Eigen::Vector3i t = faces[f];
         const Vector3d a = position[size_t(t[0])], b = position[size_t(t[1])], c = position[size_t(t[2])];
         const bool corner = random.coin();
@@ -576,7 +578,8 @@ TriMesh sponge(SeededRandom& random, int n)
 /// A pipe along a torus knot; closed to a ring, or with two open ends.
 TriMesh knotted(SeededRandom& random, int n, bool ring)
 {
-    const int p = random.whole(2, 3), q = 2 * random.whole(1, 2) + 1 - (p == 3); // 2,3  2,5  3,2  3,4
+    // 2,3 2,5 3,2 3,4
+    const int p = random.whole(2, 3), q = 2 * random.whole(1, 2) + 1 - (p == 3);
     const double thin = random.between(3, 8), part = ring ? 1 : 0.97;
     const auto axis = [=](double t) {
         const double r = 60 + 25 * std::cos(q * t);
@@ -587,7 +590,8 @@ TriMesh knotted(SeededRandom& random, int n, bool ring)
     return grid_surface(plan, [=](double u, double v) {
         const double t = 2 * pi * part * v;
         const Vector3d along = (axis(t + 1e-4) - axis(t - 1e-4)).normalized();
-        const Vector3d from_core = axis(t) - 60 * Vector3d(std::cos(p * t), std::sin(p * t), 0); // turns with the knot
+        // turns with the knot
+        const Vector3d from_core = axis(t) - 60 * Vector3d(std::cos(p * t), std::sin(p * t), 0);
         const Vector3d e = (from_core - from_core.dot(along) * along).normalized(), f = along.cross(e);
         return Vector3d(axis(t) + thin * (std::cos(2 * pi * u) * e + std::sin(2 * pi * u) * f));
     });
@@ -688,7 +692,8 @@ std::vector<FamilyShape> shape_family(int triangles, std::uint64_t seed)
     add("100 holes", 6, hundred_holes);
     add("aspect 1:50", 12, anisotropic);
     add("waved outline", 12, waved_outline);
-    add("needles", 14, needles, Expected::either); // some are thinner than the doctor can tell from flat
+    add("needles", 14, needles, Expected::either); // some are thinner than the doctor can tell from
+                                                   // flat
     add("noise", 14, noisy);
     add("twisted strip", 10, twisted_strip);
     add("twisted band", 6, [](SeededRandom& random, int n) { return twisted_band(random, n, false); });

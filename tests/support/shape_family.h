@@ -25,7 +25,8 @@ struct FamilyShape {
     std::string name() const { return family + " " + std::to_string(number); }
 };
 
-/// At least 200 shapes in about 25 families. @param triangles about how many each has @param seed of all random numbers
+/// At least 200 shapes in about 25 families. @param triangles about how many each has @param seed
+/// of all random numbers
 std::vector<FamilyShape> shape_family(int triangles = 600, std::uint64_t seed = 1);
 
 } // namespace spia::shapes

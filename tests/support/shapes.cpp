@@ -72,8 +72,8 @@ TriMesh saddle(const Saddle& shape)
 
 TriMesh closed_sphere(double radius, int triangles)
 {
-    // The octahedron |x| + |y| + |z| = n, each face n^2 triangles between whole-numbered points, pushed onto
-    // the sphere.
+    // The octahedron |x| + |y| + |z| = n, each face n^2 triangles between whole-numbered points,
+    // pushed onto the sphere.
     const int n = std::max(1, int(std::lround(std::sqrt(triangles / 8.0))));
     std::map<std::array<int, 3>, int> index;
     std::vector<Eigen::Vector3d> position;

@@ -4,8 +4,8 @@
 #include "engine/mesh/tri_mesh.h"
 #include "tests/support/region.h"
 
-/// Plain shapes, and shapes that a stage must refuse. Parts with a name of their own: revolved.h, square_cup.h,
-/// developable.h, inner_panel.h, fender.h.
+/// Plain shapes, and shapes that a stage must refuse. Parts with a name of their own: revolved.h,
+/// square_cup.h, developable.h, inner_panel.h, fender.h.
 namespace spia::shapes {
 
 /// A flat rectangle in the xy plane, columns x rows cells of two triangles.
@@ -21,7 +21,8 @@ struct Plate {
 };
 TriMesh plate(const Plate& shape = {});
 
-/// z = (x^2 - y^2) / (2 radius) over a square around the origin: negative Gaussian curvature everywhere.
+/// z = (x^2 - y^2) / (2 radius) over a square around the origin: negative Gaussian curvature
+/// everywhere.
 struct Saddle {
     double side = 100;   ///< mm
     double radius = 120; ///< mm, of both curvatures in the middle
@@ -31,10 +32,11 @@ TriMesh saddle(const Saddle& shape = {});
 
 /// @name Not sheets
 ///@{
-TriMesh closed_sphere(double radius, int triangles);               ///< no boundary
-TriMesh torus(double radius, double tube_radius, int triangles);   ///< no boundary, genus 1
-TriMesh moebius_strip(double radius, double width, int triangles); ///< its orientations clash somewhere
-TriMesh two_rectangles();                                          ///< two components
+TriMesh closed_sphere(double radius, int triangles);             ///< no boundary
+TriMesh torus(double radius, double tube_radius, int triangles); ///< no boundary, genus 1
+/// its orientations clash somewhere
+TriMesh moebius_strip(double radius, double width, int triangles);
+TriMesh two_rectangles(); ///< two components
 ///@}
 
 } // namespace spia::shapes

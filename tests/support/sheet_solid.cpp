@@ -81,7 +81,8 @@ TriMesh stepped(const TriMesh& solid, int skin_faces, const std::vector<char>& c
         for (int k = 0; k < 3; ++k) {
             const int a = solid.triangle(k, f), b = solid.triangle((k + 1) % 3, f), on = face_of.at({b, a});
             (is_chosen(f) ? moves : stays)[size_t(a)] = 1;
-            if (is_chosen(f) && on >= rim_from) { // its faces come in pairs, one for each edge of the outer skin
+            if (is_chosen(f) && on >= rim_from) { // its faces come in pairs, one for each edge of
+                                                  // the outer skin
                 const int first = rim_from + (on - rim_from) / 2 * 2;
                 follows[size_t(first)] = follows[size_t(first + 1)] = 1;
             }

@@ -15,7 +15,8 @@ struct BentSheet {
     std::vector<int> piece;  ///< per triangle: of the profile, from 0
 };
 
-/// A profile in the xz plane, extruded along y; the outer side is to the left of the profile. @param edge mm, about
+/// A profile in the xz plane, extruded along y; the outer side is to the left of the profile.
+/// @param edge mm, about
 BentSheet bent_sheet(const Profile& profile, double length, double edge);
 
 /// Without the cells (pairs of triangles) in whose middle a condition holds: holes.
@@ -35,17 +36,21 @@ template <class Cut> BentSheet without(BentSheet sheet, const Cut& cut)
     return sheet;
 }
 
-/// A closed mesh: the outer skin as it is, then the inner one (vertex v is #V + v, triangle f is #F + f), then two triangles
-/// at each edge of the boundary. @param inwards 3 by #V, mm: from an outer to its inner vertex
+/// A closed mesh: the outer skin as it is, then the inner one (vertex v is #V + v, triangle f is #F
+/// + f), then two triangles at each edge of the boundary. @param inwards 3 by #V, mm: from an outer
+/// to its inner vertex
 TriMesh thickened(const TriMesh& outer, const Eigen::Matrix3Xd& inwards);
 
-/// A step in a skin: some of its triangles are moved, with walls between them and the others. Where they reach the rim its faces
-/// follow. @param solid  of thickened(), perhaps with steps already: new triangles come last
-/// @param skin_faces  of each skin; @param chosen  of the first of them: of one skin; of the inner one away from the rim
+/// A step in a skin: some of its triangles are moved, with walls between them and the others. Where
+/// they reach the rim its faces follow. @param solid of thickened(), perhaps with steps already:
+/// new triangles come last
+/// @param skin_faces  of each skin; @param chosen of the first of them: of one skin; of the inner
+/// one away from the rim
 /// @param way  3 by #V, mm, of chosen triangles
 TriMesh stepped(const TriMesh& solid, int skin_faces, const std::vector<char>& chosen, const Eigen::Matrix3Xd& way);
 
-/// CAD faces of the above: pieces of the outer skin, of the inner one, and one for each edge loop in each direction.
+/// CAD faces of the above: pieces of the outer skin, of the inner one, and one for each edge loop
+/// in each direction.
 std::vector<int> cad_faces(const BentSheet& sheet, const TriMesh& solid);
 
 } // namespace spia::shapes

@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// The contour at a distance outside the punch square (inside: negative) is a square with rounded corners whose radius
-/// grows with the distance; far inside, a sharp square.
+/// The contour at a distance outside the punch square (inside: negative) is a square with rounded
+/// corners whose radius grows with the distance; far inside, a sharp square.
 struct Contour {
     double half_side, corner_radius;
 
@@ -74,8 +74,9 @@ Profile profile_of(const SquareCup& shape)
 
 double SquareCup::area() const
 {
-    // The contour's length is linear in the distance d: straight sides 4 (side - 2 radius), corners 2 pi
-    // (radius + d). So each smooth piece of the profile counts with the contour at its centroid (Pappus).
+    // The contour's length is linear in the distance d: straight sides 4 (side - 2 radius), corners
+    // 2 pi (radius + d). So each smooth piece of the profile counts with the contour at its
+    // centroid (Pappus).
     const Profile profile = profile_of(*this);
     double total = std::pow(punch + 2 * profile.at(profile.pieces()[1].from).x(), 2);
     const double r = corner_radius + profile.at(profile.pieces()[1].from).x();
@@ -87,8 +88,8 @@ double SquareCup::area() const
         double centroid = profile.at((piece.from + piece.to) / 2).x();
         if (piece.curvature != 0) {
             const double radius = 1 / std::abs(piece.curvature), half = length / radius / 2;
-            // From the middle of the arc towards its centre of curvature, which lies left of the tangent if
-            // curvature > 0.
+            // From the middle of the arc towards its centre of curvature, which lies left of the
+            // tangent if curvature > 0.
             const double middle_heading = piece.heading + piece.curvature * length / 2;
             const double towards_centre = piece.curvature > 0 ? -std::sin(middle_heading) : std::sin(middle_heading);
             centroid += towards_centre * radius * (1 - std::sin(half) / half);
@@ -103,7 +104,8 @@ TriMesh square_cup(const SquareCup& shape)
     const Profile profile = profile_of(shape);
     const auto place = [&](double s) { return profile.at(s); };
     const auto circumference = [&](double distance) { return Contour(shape, distance).length(); };
-    const double edge = std::sqrt(4 / std::sqrt(3.0) * shape.area() / shape.triangles); // of equilateral triangles
+    // of equilateral triangles
+    const double edge = std::sqrt(4 / std::sqrt(3.0) * shape.area() / shape.triangles);
     const std::vector<double> rows = even_spacing(profile, edge * std::sqrt(3.0) / 2);
 
     std::vector<Eigen::Matrix3Xd> rings;

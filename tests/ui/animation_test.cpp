@@ -203,7 +203,8 @@ TEST_F(AnimationFile, RefusesWhatCannotBe)
     EXPECT_THROW(Animation({folder / "x.gif"}, state, [] {}), InputError) << "nothing to show";
 }
 
-/// Turned and moved as a whole nothing is nearer to the part: its middle is that of the part, and it is still the blank.
+/// Turned and moved as a whole nothing is nearer to the part: its middle is that of the part, and
+/// it is still the blank.
 TEST_F(AnimationFile, TheBlankIsLaidBesideThePartUnchanged)
 {
     const Document shown = blank_as_state(state.document);

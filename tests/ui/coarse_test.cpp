@@ -37,8 +37,8 @@ TEST(CoarseMesh, OfASphereHasAboutAsManyTrianglesAsAskedForAndStaysOnIt)
         EXPECT_GT(count, about / 2);
         EXPECT_LT(count, about * 2);
         ASSERT_EQ(Eigen::Index(coarse.face.size()), count);
-        // What is lost are the sagittas of chords as long as a cube's diagonal d, 1 - d^2 / (8 r^2) of a length, and half a cube all
-        // along the rim.
+        // What is lost are the sagittas of chords as long as a cube's diagonal d, 1 - d^2 / (8 r^2)
+        // of a length, and half a cube all along the rim.
         const double exact = 2 * std::numbers::pi * 50 * 50, rim = 2 * std::numbers::pi * 50;
         const double side = std::sqrt(3 * exact / about), chords = exact * 3 * side * side / (4 * 50 * 50);
         EXPECT_NEAR(area(mesh, coarse.triangle), exact, chords + rim * side / 2) << about << ": " << count;
@@ -117,7 +117,8 @@ TEST_F(CoarsePicture, HasTheColoursOfTheFineOne)
             for (int x = 50; x < 150; ++x, ++counted)
                 sum +=
                     std::abs(int(fine.rgba[size_t(4 * (200 * y + x))]) - int(coarse.rgba[size_t(4 * (200 * y + x))]));
-        // A face that stands for its neighbours is off by up to half a cube: 255 levels over 100 mm, cubes of 3 mm.
+        // A face that stands for its neighbours is off by up to half a cube: 255 levels over 100
+        // mm, cubes of 3 mm.
         EXPECT_LT(sum / counted, 4) << (per_face ? "per face" : "per vertex");
     }
 }

@@ -23,8 +23,9 @@
 ///                                                                               pixels differ, but for those of a rectangle
 ///     compare_pictures PICTURE REFERENCE                                        makes the reference
 ///
-/// Each pixel of a reference is the mean of 2 x 2: smooth edges that fall a little otherwise are no difference, and the file is
-/// small. A pixel differs if one of its channels is off by more than 24 of 255.
+/// Each pixel of a reference is the mean of 2 x 2: smooth edges that fall a little otherwise are no
+/// difference, and the file is small. A pixel differs if one of its channels is off by more than 24
+/// of 255.
 namespace {
 
 struct Rgb {

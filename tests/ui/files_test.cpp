@@ -181,7 +181,8 @@ Json lasting(Json report)
     for (const char* each : {"frames", "frames_while_solving", "messages", "history", "window", "hovered", "job"})
         report.erase(each);
     report["figures"]["solve"].erase("seconds");
-    for (const char* each : {"seconds", "peak_memory_mb", "input"}) // a project knows its part by the whole path
+    // a project knows its part by the whole path
+    for (const char* each : {"seconds", "peak_memory_mb", "input"})
         report["figures"].erase(each);
     report["part"].erase("file");
     return report;
@@ -192,7 +193,8 @@ TEST_F(Scripts, AReopenedProjectIsWhatWasSaved)
     fs::create_directory(folder / "kept");
     const Ended saved = run("working.json");
     ASSERT_TRUE(fs::exists(folder / "kept/dome.spia"));
-    const Ended reopened = run_viewer(folder, {"kept/dome.spia", "--light"}); // the theme is that of the screen
+    // the theme is that of the screen
+    const Ended reopened = run_viewer(folder, {"kept/dome.spia", "--light"});
     ASSERT_EQ(reopened.exit_code, 0) << reopened.errors;
     const Json before = lasting(saved.report), after = lasting(reopened.report);
     ASSERT_GT(before["regions"][0]["faces"], 0);

@@ -9,7 +9,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A window of 1366 by 768 pixels with a deck of two parts, 7 "Hood" of eight triangles and 9 "Rail" of four.
+/// A window of 1366 by 768 pixels with a deck of two parts, 7 "Hood" of eight triangles and 9
+/// "Rail" of four.
 struct MouseOnImport : testing::Test {
     std::unique_ptr<OpenViewer> viewer;
 

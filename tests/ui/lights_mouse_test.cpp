@@ -5,7 +5,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A part whose file says nothing of the sheet: its light is amber, and so is the one at the foot of the window.
+/// A part whose file says nothing of the sheet: its light is amber, and so is the one at the foot
+/// of the window.
 TEST(LightsByMouse, WhatIsAssumedIsListedAndConfirmedByClicks)
 {
     const std::filesystem::path folder = scratch_folder("lights-mouse");

@@ -31,7 +31,8 @@ glm::dvec2 corner_on_screen(const Json& report, int corner)
     return in_view(report, "blank", 0, 0) + pixel;
 }
 
-/// A window of 1366 by 768 pixels with the sample part as a project, unfolded by key: every test begins here.
+/// A window of 1366 by 768 pixels with the sample part as a project, unfolded by key: every test
+/// begins here.
 struct Mouse : testing::Test {
     std::filesystem::path folder =
         scratch_folder(std::string("mouse-") + testing::UnitTest::GetInstance()->current_test_info()->name());
@@ -182,7 +183,8 @@ TEST_F(Mouse, TurnsZoomsAndEnlargesViews)
 
     for (const Json& wanted : {Json("blank"), Json(nullptr)}) {
         const glm::dvec2 title = in_view(viewer->report(), "blank", 0.3, 0) - glm::dvec2(0, 12);
-        for (int tries = 0; tries < 8; ++tries) { // a double click is a matter of time: 0.3 s, yet in two frames
+        for (int tries = 0; tries < 8; ++tries) { // a double click is a matter of time: 0.3 s, yet
+                                                  // in two frames
             viewer->move(title.x, title.y);
             viewer->double_click(50 + 30 * tries);
             if (viewer->move(title.x + 1, title.y)["view"]["maximised"] == wanted)

@@ -38,8 +38,8 @@ Difference difference(const Picture& a, const Picture& b)
     return found;
 }
 
-/// The blank of the dome with its legend and the labels of its least and greatest value, from so far away that it is
-/// not in their way.
+/// The blank of the dome with its legend and the labels of its least and greatest value, from so
+/// far away that it is not in their way.
 class ViewPicture : public testing::Test {
 protected:
     ViewPicture()
@@ -72,7 +72,8 @@ TEST_F(ViewPicture, LegendAndLabelsStandWhereTheyDoOnTheScreenAndOnlyIfWanted)
     EXPECT_GT(legend.height(), 190); // a bar of 200 pixels
     const Difference labels = difference(plain, draw(960, 640, {false, true}));
     ASSERT_TRUE(labels.any());
-    EXPECT_GT(labels.left, 240); // beside the blank of 190 mm in the middle of 1500 mm, on either side of it
+    EXPECT_GT(labels.left, 240); // beside the blank of 190 mm in the middle of 1500 mm, on either
+                                 // side of it
     EXPECT_LT(labels.right, 720);
     const Difference both = difference(plain, draw(960, 640, {true, true}));
     EXPECT_EQ(both.left, legend.left);

@@ -119,13 +119,15 @@ protected:
 
 TEST_F(Render, ATriangleCoversItsShareOfThePixelsAndNothingElse)
 {
-    // 6 mm x 4 mm / 2 of 10 mm x 10 mm. Its sides are askew, or the few samples of a pixel would all err the same way.
+    // 6 mm x 4 mm / 2 of 10 mm x 10 mm. Its sides are askew, or the few samples of a pixel would
+    // all err the same way.
     const Picture picture = draw(scene_of({layer(triangles({{-3, -2, 0}, {3, -1.87f, 0}, {0.31f, 2.07f, 0}}))}));
     double covered = 0;
     const Eigen::Vector3d paper = rgb_at(picture, 0, 0);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
-            covered += (paper[1] - rgb_at(picture, x, y)[1]) / paper[1]; // the triangle has no green
+            // the triangle has no green
+            covered += (paper[1] - rgb_at(picture, x, y)[1]) / paper[1];
     const double area = 0.5 * (6 * 4.07 - 0.13 * 3.31) / 100;
     EXPECT_NEAR(covered / (side * side), area, 0.0005); // a tenth of a pixel all around
 
@@ -213,7 +215,8 @@ TEST_F(Render, IsolinesRunWhereTheLegendHasItsTicks)
     const auto mesh = rectangle(-4, -4, 4, 4);
     SceneLayer shown = layer(mesh);
     shown.field = field_on(*mesh, [](const Eigen::Vector3f& p) { return p.x(); });
-    shown.scale = {.map = ColourMap::grey, .least = -5, .greatest = 5, .isolines = true, .ticks = 5}; // at -3, -1, 1, 3
+    // at -3, -1, 1, 3
+    shown.scale = {.map = ColourMap::grey, .least = -5, .greatest = 5, .isolines = true, .ticks = 5};
     SceneLayer without = shown;
     without.scale.isolines = false;
     const Picture lines = draw(scene_of({shown})), smooth = draw(scene_of({without}));
@@ -303,7 +306,8 @@ TEST_F(Render, ALineBehindAFaceIsHiddenUnlessItIsOnTop)
 
 TEST_F(Render, WhatAPlaneCutsAwayIsNotDrawnWhateverItIs)
 {
-    const Eigen::Vector3d origin(1000, -50, 7); // of line and dots: where things lie does not depend on it
+    const Eigen::Vector3d origin(1000, -50, 7); // of line and dots: where things lie does not
+                                                // depend on it
     auto line = std::make_shared<SceneLines>();
     line->origin = origin;
     line->point.resize(3, 2);
@@ -333,7 +337,8 @@ TEST_F(Render, WhatAPlaneCutsAwayIsNotDrawnWhateverItIs)
             expect_colour(rgb_at_mm(picture, gone, 3), paper);
             expect_colour(rgb_at_mm(picture, 3 * side_kept, -3), {0, 0, 1});
             expect_colour(rgb_at_mm(picture, -3 * side_kept, -3), paper);
-            expect_colour(rgb_at_mm(picture, 1 + 0.1 * side_kept, 0), {1, 0, 0}); // up to the plane itself
+            // up to the plane itself
+            expect_colour(rgb_at_mm(picture, 1 + 0.1 * side_kept, 0), {1, 0, 0});
             expect_colour(rgb_at_mm(picture, 1 - 0.1 * side_kept, 0), paper);
         }
 }
@@ -420,7 +425,8 @@ TEST_F(Render, ARegionTintsItsFacesWithItsOwnColour)
     EXPECT_GT(green[1], green[2] + 0.3);
     EXPECT_GT(blue[2], blue[1] + 0.3);
     scene.layers[0].field = field_on(*mesh, [](const Eigen::Vector3f&) { return 0.3; });
-    expect_colour(rgb_at_mm(draw(scene), 2, 2), map_colour(ColourMap::viridis, 0.3), 2 * steps); // a field is not
+    // a field is not
+    expect_colour(rgb_at_mm(draw(scene), 2, 2), map_colour(ColourMap::viridis, 0.3), 2 * steps);
 }
 
 TEST_F(Render, TheInnerSideOfASheetIsToldApart)
@@ -499,7 +505,8 @@ TEST_F(Render, ViewsThatAreTooMuchForOneFrameTakeTurnsAndAllArrive)
 {
     DrawTurns turns(10);
     std::array<int, 4> drawn{};
-    for (int frame = 0; frame < 12; ++frame) { // all four change all the time, each costs more than the budget
+    for (int frame = 0; frame < 12; ++frame) { // all four change all the time, each costs more than
+                                               // the budget
         turns.begin_frame();
         int now = 0;
         for (size_t view = 0; view < 4; ++view)

@@ -19,7 +19,8 @@ struct MouseOnSteps : testing::Test {
                                                                                "--width", "1366", "--height", "768"});
         viewer->wait("the part", [](const Json& now) { return now["stages"]["read"] == true; });
     }
-    /// Where an item lies, by shares of its width and height; scrolls the panel until it is in sight.
+    /// Where an item lies, by shares of its width and height; scrolls the panel until it is in
+    /// sight.
     std::pair<double, double> place_of(const std::string& item, double x = 0.5, double y = 0.5)
     {
         constexpr double over_panel_x = 150, over_panel_y = 400, top = 60, bottom = 690;
@@ -38,8 +39,8 @@ struct MouseOnSteps : testing::Test {
         ADD_FAILURE() << item << " does not come into sight";
         return {0, 0};
     }
-    /// Waits until no job runs, for it disables buttons, and until the item stands still under the mouse: what a slow machine
-    /// draws late moves it.
+    /// Waits until no job runs, for it disables buttons, and until the item stands still under the
+    /// mouse: what a slow machine draws late moves it.
     void click(const std::string& item)
     {
         viewer->wait("no job before a click on " + item,

@@ -12,7 +12,8 @@ TEST(Theme, ContrastIsThatOfTheRecommendation)
 {
     EXPECT_NEAR(contrast(white, black), 21, 1e-6);
     EXPECT_NEAR(contrast(white, white), 1, 1e-12);
-    // The grey #767676 is known as the lightest that is legible on white: 4.54 [WCAG 2.1, technique G18].
+    // The grey #767676 is known as the lightest that is legible on white: 4.54 [WCAG 2.1, technique
+    // G18].
     EXPECT_NEAR(contrast(ImVec4(0x76 / 255.f, 0x76 / 255.f, 0x76 / 255.f, 1), white), 4.54, 0.01);
 }
 

@@ -109,14 +109,16 @@ OpenViewer::OpenViewer(fs::path folder, const std::vector<std::string>& argument
     window_ = answer_of(fmt::format("xdotool search --onlyvisible --pid {} --name SPIA", process_));
     if (window_.empty() || window_.find('\n') != std::string::npos)
         throw Error(fmt::format("xdotool finds not one window of the viewer but: \"{}\"", window_));
-    xdotool(fmt::format("windowfocus --sync {}", window_)); // nobody else does without a window manager
+    xdotool(fmt::format("windowfocus --sync {}", window_)); // nobody else does without a window
+                                                            // manager
 }
 
 OpenViewer::~OpenViewer() { crash(); }
 
 std::string OpenViewer::title() const { return answer_of("xdotool getwindowname " + window_); }
 
-/// Which actions this test has pushed through the window: tests/structure/pushed_by_hand.sh looks whether any is missing.
+/// Which actions this test has pushed through the window: tests/structure/pushed_by_hand.sh looks
+/// whether any is missing.
 void OpenViewer::note_pushed() const
 {
     const Json now = report();

@@ -10,10 +10,12 @@
 /// The program itself, run by a test in a folder of its own.
 namespace spia::viewer {
 
-/// An empty folder for this test, with a link to the assets, so that scripts find "assets/parts/..." from there.
+/// An empty folder for this test, with a link to the assets, so that scripts find
+/// "assets/parts/..." from there.
 std::filesystem::path scratch_folder(const std::string& name);
 
-std::string content(const std::filesystem::path& file); ///< its bytes; none if there is no such file
+std::string content(const std::filesystem::path& file); ///< its bytes; none if there is no such
+                                                        ///< file
 
 struct Ended {
     int exit_code = -1;
@@ -24,8 +26,8 @@ struct Ended {
 /// Runs the viewer in a folder to its end; with --report and --exit. @param arguments  beside these
 Ended run_viewer(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// A viewer that stays open, with xdotool for its hands. Whatever is done to it, wait() tells what came of it: the program writes
-/// its report whenever its window has come to rest.
+/// A viewer that stays open, with xdotool for its hands. Whatever is done to it, wait() tells what
+/// came of it: the program writes its report whenever its window has come to rest.
 class OpenViewer {
 public:
     OpenViewer(std::filesystem::path folder, const std::vector<std::string>& arguments);
@@ -40,7 +42,8 @@ public:
 
     void keys(const std::string& combination); ///< as xdotool names them, e.g. "ctrl+z"
     void type(const std::string& text);        ///< letter by letter
-    void rest() const;                         ///< a moment, in which the window draws what a key did
+    void rest() const;                         ///< a moment, in which the window draws what a key
+                                               ///< did
     void hold(const std::string& key);         ///< until let_go()
     void let_go(const std::string& key);
     Json move(double x, double y); ///< of the window; waits until the program has seen it there
@@ -53,8 +56,9 @@ public:
     Json drag(double from_x, double from_y, double to_x, double to_y, int button = 1);
     void wheel(int notches); ///< above 0 towards the part
     void resize(int width, int height);
-    int wait_for_end();                                          ///< @returns exit code
-    void crash();                                                ///< it is ended without a chance to do anything
+    int wait_for_end(); ///< @returns exit code
+    /// it is ended without a chance to do anything
+    void crash();
     std::string title() const;                                   ///< of the window
     unsigned long window() const { return std::stoul(window_); } ///< of X
 

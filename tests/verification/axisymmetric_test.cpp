@@ -1,4 +1,5 @@
-// The five cases of an independent one-dimensional code (principle of virtual work along the meridian, 8001 nodes).
+// The five cases of an independent one-dimensional code (principle of virtual work along the
+// meridian, 8001 nodes).
 #include <Eigen/Dense>
 #include <filesystem>
 #include <fstream>
@@ -128,7 +129,8 @@ TEST_P(Axisymmetric, ConvergesToTheOneDimensionalReference)
             EXPECT_LT(e.thinning, 0.005);
         }
     }
-    EXPECT_GT(shapes::convergence_order(h, error), 1.6); // 2 in the limit; the coarse cup has four edges in a radius
+    EXPECT_GT(shapes::convergence_order(h, error), 1.6); // 2 in the limit; the coarse cup has four
+                                                         // edges in a radius
 }
 
 INSTANTIATE_TEST_SUITE_P(Reference, Axisymmetric,

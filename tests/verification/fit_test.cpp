@@ -49,7 +49,8 @@ TEST(Fit, KnownSurfacesStayWithinTheToleranceAndTheChordErrorOfTheMesh)
             EXPECT_GE(1.1 * int(surface.control.cols()), before) << "less tolerance needs no fewer control points";
             before = int(surface.control.cols());
 
-            // Uniform interpolation with fewer control points is not as close; tests/bench/fit_table.cpp has the figures.
+            // Uniform interpolation with fewer control points is not as close;
+            // tests/bench/fit_table.cpp has the figures.
             const int cells = int(std::ceil(std::sqrt(before))) - 2;
             if (cells < 3)
                 continue;

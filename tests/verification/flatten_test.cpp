@@ -58,7 +58,8 @@ TEST(Flatten, DevelopablePartsUnrollWithoutStrainInAnyOrientation)
             const FlattenResult result = flatten(turned, mild_steel());
             EXPECT_TRUE(result.report.converged) << name << ": " << result.report.reason;
             EXPECT_LT(largest_strain(result.face), 1e-8) << name;
-            EXPECT_LT(distance(result.blank.position, part.flat), 1e-5) << name; // mm: strain times length, summed
+            // mm: strain times length, summed
+            EXPECT_LT(distance(result.blank.position, part.flat), 1e-5) << name;
         }
 }
 
@@ -160,7 +161,8 @@ TEST(Flatten, RigidMotionScaleMirrorAndPermutationChangeNothing)
     const auto middle = [](const FlattenResult& flat) -> Eigen::Vector2d {
         return flat.blank.position.rowwise().mean();
     };
-    EXPECT_LT((middle(far) - middle(reference) - Eigen::Vector2d(1e7, -1e7)).norm(), 1e-4); // still under the part
+    // still under the part
+    EXPECT_LT((middle(far) - middle(reference) - Eigen::Vector2d(1e7, -1e7)).norm(), 1e-4);
 
     FlattenOptions thick = options;
     thick.thickness *= 25.4;
@@ -199,7 +201,8 @@ TEST(Flatten, RefusesWhatCannotBeUnfolded)
     options.thickness = 0;
     EXPECT_THROW(flatten(flat, options), InputError);
     TriMesh needle = flat;
-    needle.position.col(4) = needle.position.col(0); // the middle vertex onto a corner: two faces lose their area
+    needle.position.col(4) = needle.position.col(0); // the middle vertex onto a corner: two faces
+                                                     // lose their area
     EXPECT_THROW(flatten(needle, mild_steel()), InputError);
     TriMesh tetrahedron;
     tetrahedron.position = Eigen::Matrix<double, 3, 4>{{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -213,7 +216,8 @@ TEST(Flatten, RefusesWhatCannotBeUnfolded)
 
 TEST(Flatten, SaysWhereTheBlankLiesOnItself)
 {
-    // A staircase of one and a half turns is a ring of that angle when it is flat: its ends lie on each other.
+    // A staircase of one and a half turns is a ring of that angle when it is flat: its ends lie on
+    // each other.
     const auto stair = [](double turns) {
         return shapes::grid_surface({int(60 * turns), 4}, [=](double u, double v) -> Eigen::Vector3d {
             const double angle = 2 * std::numbers::pi * turns * u, r = 40 + 20 * v;

@@ -50,9 +50,9 @@ double radius_at(const Eigen::VectorXd& radius, const Eigen::VectorXd& angle, do
 
 TEST(Process, AStripOverABinderCarriesTheSumOfFrictionAndBead)
 {
-    // A hat; with r = 0 tension does not narrow it, so every generator is in plane strain. The binder presses on both
-    // flanges, a bead runs along each: in the flange the force grows inwards by the friction passed, behind the bead by its
-    // force, and stays so in wall and top.
+    // A hat; with r = 0 tension does not narrow it, so every generator is in plane strain. The
+    // binder presses on both flanges, a bead runs along each: in the flange the force grows inwards
+    // by the friction passed, behind the bead by its force, and stays so in wall and top.
     shapes::HatChannel shape;
     shape.length = 120;
     shape.angle_deg = 80;
@@ -116,12 +116,14 @@ namespace {
 struct BentStrip {
     shapes::DevelopablePart part = shapes::quarter_cylinder({.radius = 50, .length = 60, .triangles = 6000});
     double half = 0;             ///< mm, from the middle to the ends
-    Eigen::VectorXd from_middle; ///< mm along the strip, of each face, of both triangles of a cell alike
+    Eigen::VectorXd from_middle; ///< mm along the strip, of each face, of both triangles of a cell
+                                 ///< alike
 
     BentStrip()
     {
         const Eigen::Vector2d length = part.flat.rowwise().maxCoeff() - part.flat.rowwise().minCoeff();
-        const int along = std::abs(length[0] - 60) < 1e-6 ? 1 : 0; // the other one is the cylinder's length
+        // the other one is the cylinder's length
+        const int along = std::abs(length[0] - 60) < 1e-6 ? 1 : 0;
         const Eigen::VectorXd s = part.flat.row(along);
         const double middle = (s.maxCoeff() + s.minCoeff()) / 2;
         half = s.maxCoeff() - middle;
@@ -131,7 +133,8 @@ struct BentStrip {
             from_middle[f] = 0.5 * std::abs(at.maxCoeff() + at.minCoeff());
         }
     }
-    /// That the strain in the outer half is that of a force per length: in the mean within 1 %, of each face within a share.
+    /// That the strain in the outer half is that of a force per length: in the mean within 1 %, of
+    /// each face within a share.
     void expect(const FlattenOptions& options, const std::function<double(double)>& force, double each) const
     {
         const FlattenResult result = flatten(part.mesh, options);
@@ -173,7 +176,8 @@ struct DrawnCup {
 
 TEST(Process, ABinderOverACylinderPullsTheSheetFromItsEndsInwards)
 {
-    // The stroke turns the flat strip down on either side; friction grows from the free ends: T = 2 mu p s.
+    // The stroke turns the flat strip down on either side; friction grows from the free ends: T = 2
+    // mu p s.
     const BentStrip strip;
     FlattenOptions options = steel(1e-6, 1e-6, 1e-6);
     options.process.contact = {{"binder", {}, 4, {}, 0.12, 2}};
@@ -227,7 +231,8 @@ TEST(Process, TheMoreTheEdgeIsHeldTheSmallerTheBlankUpToTheLock)
 
 TEST(Process, WhatTheSheetBearsDoesNotDependOnHowMuchIsAskedFor)
 {
-    // A rolled-up strip held at its edge: its slip is far longer than its pitch, and soon no equilibrium is found.
+    // A rolled-up strip held at its edge: its slip is far longer than its pitch, and soon no
+    // equilibrium is found.
     const auto family = shapes::shape_family();
     const auto spiral =
         std::find_if(family.begin(), family.end(), [](const auto& each) { return each.family == "spiral"; });
@@ -254,8 +259,9 @@ TEST(Process, WhatTheSheetBearsDoesNotDependOnHowMuchIsAskedFor)
 
 TEST(Process, ThinningGrowsSteadilyWithTheForceFromNoneOn)
 {
-    // With a curve that softens strain gathers in rows of elements at some forces and not at others; with one curve for all
-    // forces and another for none the smallest force would change the blank.
+    // With a curve that softens strain gathers in rows of elements at some forces and not at
+    // others; with one curve for all forces and another for none the smallest force would change
+    // the blank.
     const TriMesh cup = shapes::square_cup();
     FlattenOptions options = steel(1.79, 1.51, 2.27);
     const FlattenResult free = flatten(cup, options);
@@ -286,7 +292,8 @@ TEST(Process, OnePilotOnlyMovesAFreeSheet)
         options.process.pilots = {{"pin", {part.position.col(lowest)}}};
         const FlattenResult held = flatten(part, options);
         EXPECT_EQ(held.report.system, SolvedSystem::strict) << held.report.reason;
-        // The pin takes as a point load what the three multipliers spread: as little as it is, it is seen.
+        // The pin takes as a point load what the three multipliers spread: as little as it is, it
+        // is seen.
         EXPECT_LT((held.face.thinning - free.face.thinning).cwiseAbs().maxCoeff(), 5e-4);
         const Eigen::Vector2d move = held.blank.position.col(lowest) - free.blank.position.col(lowest);
         EXPECT_GT(move.norm(), 1);
@@ -364,9 +371,10 @@ TEST(Process, MessagesTellThePlaceThatWasGiven)
 
 TEST(PlanarAnisotropy, ARoundPartNeedsABlankWithFourWaves)
 {
-    // Drawn from a round blank, a cup has ears where r of the circumferential direction is high: there the flange, pressed
-    // together around, gives way outwards more than in thickness [Hill 1950, ch. XII]. Read backwards, the blank of a round
-    // part is small there: for r0 = r90 > r45 along and across the rolling direction, large at 45 degrees.
+    // Drawn from a round blank, a cup has ears where r of the circumferential direction is high:
+    // there the flange, pressed together around, gives way outwards more than in thickness [Hill
+    // 1950, ch. XII]. Read backwards, the blank of a round part is small there: for r0 = r90 > r45
+    // along and across the rolling direction, large at 45 degrees.
     shapes::SharpCup shape;
     shape.triangles = 6000;
     const shapes::AxisymmetricPart part = shapes::sharp_cup(shape);
@@ -407,7 +415,8 @@ TEST(PlanarAnisotropy, ARoundPartNeedsABlankWithFourWaves)
         EXPECT_LT(radius_at(radius, angle, rolling + quarter), radius_at(radius, angle, rolling + quarter + 45))
             << quarter;
 
-    // With r high across the rolling direction the sheet gives way there, around the flange at the places along it.
+    // With r high across the rolling direction the sheet gives way there, around the flange at the
+    // places along it.
     FlattenOptions two = steel(1.2, 1.5, 2.0);
     two.process.rolling = options.process.rolling;
     const Eigen::VectorXd oval = radii(two, angle);

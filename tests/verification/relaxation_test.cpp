@@ -36,8 +36,9 @@ TEST(Relaxation, EndsInTheStrictSolutionWhereThereIsOne)
     EXPECT_EQ(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)), 0);
     EXPECT_LT((strict.position - relaxed.position).colwise().norm().maxCoeff(), 1e-6);
 
-    // With every vertex relaxed the answer is another one: what is neglected, the change of F across a vertex, does not
-    // vanish on finer meshes. On this part it is within 2 % of its radius.
+    // With every vertex relaxed the answer is another one: what is neglected, the change of F
+    // across a vertex, does not vanish on finer meshes. On this part it is within 2 % of its
+    // radius.
     work.relax(std::vector<char>(size_t(part.vertices()), 1));
     const EquilibriumResult all = solve_equilibrium(part, element, work, X, matrix, cholesky, {}, {});
     ASSERT_EQ(all.ended, Ended::converged);

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double half_blank = 75; // mm, of the square blank of 150 mm
 
-/// Where a point of the blank's right edge (half_blank, y) lies at 15 mm of stroke: draw-in 5.3 mm on the axis, 3.3 mm along
-/// the diagonal [NUMISHEET'93, measured mean of the aluminium cups], a cosine between.
+/// Where a point of the blank's right edge (half_blank, y) lies at 15 mm of stroke: draw-in 5.3 mm
+/// on the axis, 3.3 mm along the diagonal [NUMISHEET'93, measured mean of the aluminium cups], a
+/// cosine between.
 Eigen::Vector2d drawn_in(double y)
 {
     const double axis = 5.3, corner = 3.3 / std::numbers::sqrt2, t = y / half_blank;
@@ -34,12 +35,14 @@ double outline_radius(double angle)
     return drawn_in(0.5 * (low + high)).norm();
 }
 
-/// The middle of the sheet between the benchmark's tools at 15 mm of stroke: punch 70 mm with corners of 10 and an edge of
-/// 8 mm, die of 74 mm with an edge of 5 mm. Its flange is stretched or shrunk along the rays from the middle until its rim lies on the
-/// measured outline; being flat, it stays the exact surface.
+/// The middle of the sheet between the benchmark's tools at 15 mm of stroke: punch 70 mm with
+/// corners of 10 and an edge of 8 mm, die of 74 mm with an edge of 5 mm. Its flange is stretched or
+/// shrunk along the rays from the middle until its rim lies on the measured outline; being flat, it
+/// stays the exact surface.
 TriMesh numisheet_cup(double thickness)
 {
-    constexpr double punch = 35, die = 37, corner = 10, punch_edge = 8, die_edge = 5, stroke = 15; // mm, half sides
+    // mm, half sides
+    constexpr double punch = 35, die = 37, corner = 10, punch_edge = 8, die_edge = 5, stroke = 15;
     shapes::SquareCup shape;
     shape.punch_radius = punch_edge + thickness / 2;
     shape.die_radius = die_edge + thickness / 2;
@@ -95,8 +98,9 @@ struct Square {
 
 } // namespace
 
-/// Aluminium 6114-T4 of the benchmark: 0.81 mm, sigma = 576.79 (0.01658 + eps)^0.3593 MPa, r 0.71/0.58/0.70, friction 0.162,
-/// binder 19.6 kN. [A. Makinouchi et al. (eds.), Proc. NUMISHEET'93, square cup deep drawing]
+/// Aluminium 6114-T4 of the benchmark: 0.81 mm, sigma = 576.79 (0.01658 + eps)^0.3593 MPa, r
+/// 0.71/0.58/0.70, friction 0.162, binder 19.6 kN. [A. Makinouchi et al. (eds.), Proc.
+/// NUMISHEET'93, square cup deep drawing]
 TEST(SquareCup, TheDrawnCupUnfoldsToTheSquareItWasMadeOf)
 {
     FlattenOptions options;

@@ -144,7 +144,8 @@ TEST(UnfoldStep, AStretchFlangeOverARadiusConvergesToTheSolutionAlongItsMeridian
 TEST(UnfoldStep, TheWallAroundACrownedBottomConvergesToTheSolutionAlongItsMeridian)
 {
     // The bottom is a paraboloid, and so is the target: as a height it is exactly a spline.
-    const double r = 1.77, radius = 40, height = 20, crown = 0.012; // z = -crown R^2: a slope of 44 degrees at the edge
+    // z = -crown R^2: a slope of 44 degrees at the edge
+    const double r = 1.77, radius = 40, height = 20, crown = 0.012;
     HeightFace paraboloid{
         {0, 0, 0}, Eigen::Matrix<double, 3, 2>::Identity(), {-100, -100}, 10, Eigen::MatrixXd(23, 23)};
     for (int i = 0; i < 23; ++i)
@@ -180,12 +181,14 @@ TEST(UnfoldStep, TheWallAroundACrownedBottomConvergesToTheSolutionAlongItsMeridi
 
 TEST(UnfoldStep, ARingAllAroundACylinderOrAConeConvergesToTheSolutionAlongItsMeridian)
 {
-    // A fixed wall and a straight end that leans another way, all around; radians of their headings in (r, z).
+    // A fixed wall and a straight end that leans another way, all around; radians of their headings
+    // in (r, z).
     struct Case {
         const char* name;
         double wall, end, length;
     };
-    constexpr double degree = pi / 180, radius = 40, steep = 1e6; // slope of what stands for a cylinder
+    // slope of what stands for a cylinder
+    constexpr double degree = pi / 180, radius = 40, steep = 1e6;
     for (const Case& c : {Case{"flared tube", 90, 50, 18},
                           {"collar of a tube", 90, 0, 10},
                           {"necked tube", 90, 120, 18},
@@ -205,7 +208,8 @@ TEST(UnfoldStep, ARingAllAroundACylinderOrAConeConvergesToTheSolutionAlongItsMer
         const double slope = c.wall == 90 ? steep : std::tan(c.wall * degree);
         flange.slope = [&](double) { return slope; };
         const shapes::FlangeBlank truth = shapes::held_flange_blank(flange);
-        const double length = std::abs(truth.R.tail(1)[0] - radius) * std::hypot(1, slope); // along the generators
+        // along the generators
+        const double length = std::abs(truth.R.tail(1)[0] - radius) * std::hypot(1, slope);
         std::vector<double> h, error, thickness_error;
         for (const int triangles : {3000, 12000, 48000}) {
             const shapes::AxisymmetricPart part = shapes::axisymmetric(meridian, triangles);
@@ -236,7 +240,8 @@ TEST(UnfoldStep, ARingAllAroundACylinderOrAConeConvergesToTheSolutionAlongItsMer
                         result.piece[0].report.newton.size(), result.seconds);
         }
         EXPECT_LT(error.back(), 5e-4) << c.name;
-        EXPECT_LT(thickness_error.back(), 5e-3) << c.name; // of the faces at the edge, whose middles lie beside it
+        EXPECT_LT(thickness_error.back(), 5e-3) << c.name; // of the faces at the edge, whose
+                                                           // middles lie beside it
         EXPECT_GT(shapes::convergence_order(h, error), 1.5) << c.name;
     }
 }

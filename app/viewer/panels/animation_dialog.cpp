@@ -10,7 +10,8 @@
 namespace spia::viewer {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 4> sizes{{{640, 480}, {960, 640}, {1280, 720}, {1920, 1080}}}; // pixels
+// pixels
+constexpr std::array<std::array<int, 2>, 4> sizes{{{640, 480}, {960, 640}, {1280, 720}, {1920, 1080}}};
 
 std::string words(const std::array<int, 2>& size) { return fmt::format("{} x {}", size[0], size[1]); }
 

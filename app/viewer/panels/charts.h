@@ -73,7 +73,8 @@ void section_plot(Frame& frame);
 /// The forming limit curve, its margins, the zones of the sheet and their worst spots.
 void limits_section(Frame& frame);
 
-/// Major over minor strain, a point per face; a click selects the face of a point, a dragged box those in it.
+/// Major over minor strain, a point per face; a click selects the face of a point, a dragged box
+/// those in it.
 void strain_diagram(Frame& frame);
 
 } // namespace spia::viewer

@@ -48,7 +48,8 @@ static void close_button(const Frame& frame)
 
 bool begin_dialog(const Frame& frame, const char* title, bool appears, float width, bool urgent)
 {
-    if (appears || frame.ui.dialogs.shows(title)) { // else it would be the place and size of the next window
+    if (appears || frame.ui.dialogs.shows(title)) { // else it would be the place and size of the
+                                                    // next window
         const ImVec2 screen = ImGui::GetIO().DisplaySize;
         const float wide = std::min(width * frame.ui.scale, screen.x - 40);
         ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -57,8 +58,10 @@ bool begin_dialog(const Frame& frame, const char* title, bool appears, float wid
     if (!begin_modal(frame, title, appears, ImGuiWindowFlags_AlwaysAutoResize, nullptr, urgent))
         return false;
     close_button(frame);
-    ImGui::PushID(frame.ui.dialogs.openings());            // no field goes on with what was typed there the last time
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1); // an empty box has nearly the colour of the window
+    ImGui::PushID(frame.ui.dialogs.openings());            // no field goes on with what was typed
+                                                           // there the last time
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1); // an empty box has nearly the colour of
+                                                           // the window
     return true;
 }
 

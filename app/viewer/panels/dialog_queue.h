@@ -5,11 +5,13 @@
 
 namespace spia::viewer {
 
-/// The modal dialogs that want to be on the screen. One of them is, the others wait for their turn: two that opened in one frame
-/// would close each other, and the window would hold still for a dialog that nobody sees. A dialog is known by its title.
+/// The modal dialogs that want to be on the screen. One of them is, the others wait for their turn:
+/// two that opened in one frame would close each other, and the window would hold still for a
+/// dialog that nobody sees. A dialog is known by its title.
 class DialogQueue {
 public:
-    /// No matter whether it wants to already. @param urgent  goes before the others, which come back when it has been answered
+    /// No matter whether it wants to already. @param urgent goes before the others, which come back
+    /// when it has been answered
     void want(const std::string& title, bool urgent)
     {
         if (wants(title))
@@ -44,7 +46,8 @@ public:
 
     /// To be called for each dialog that is drawn, or waits, in this frame.
     void seen(const std::string& title) { seen_.push_back(title); }
-    /// Those that were not drawn in this frame have lost what they were about. @returns whether the one on the screen has
+    /// Those that were not drawn in this frame have lost what they were about. @returns whether the
+    /// one on the screen has
     bool end_frame()
     {
         std::erase_if(wanted_, [&](const std::string& title) {

@@ -135,7 +135,8 @@ void follow_chosen_file(Frame& frame)
     if (!path) {
         if (!frame.ui.files.is_open()) {
             frame.ui.after_save.reset();
-            MaterialEditor& editor = frame.ui.materials; // goes on where its file dialog was left without a file
+            MaterialEditor& editor = frame.ui.materials; // goes on where its file dialog was left
+                                                         // without a file
             if (std::exchange(editor.curve_for_editor, false) ||
                 (editor.test_for_editor && !frame.ui.show_material &&
                  !frame.ui.dialogs.wants("Material from a tensile test")))

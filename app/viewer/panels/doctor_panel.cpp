@@ -47,7 +47,8 @@ void list_of_places(Frame& frame, int number, const Finding& finding)
             if (ImGui::Selectable(label.c_str(), k == entry) && k != entry)
                 frame.actions.push(ShowFault{number, k});
         }
-    int& listed = frame.ui.listed_place; // the list follows the buttons, and is scrolled by hand otherwise
+    int& listed = frame.ui.listed_place; // the list follows the buttons, and is scrolled by hand
+                                         // otherwise
     if (std::exchange(listed, entry) != entry)
         ImGui::SetScrollY(std::max(0.f, (float(entry) - rows / 2) * line));
     ImGui::EndChild();
@@ -79,7 +80,8 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
     if (small_button(frame, "<"))
         go(-1);
     ImGui::SameLine(0, 4 * frame.ui.scale);
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 2 * frame.ui.scale); // on the line of the buttons' texts
+    // on the line of the buttons' texts
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 2 * frame.ui.scale);
     ImGui::TextUnformatted(fmt::format("{} of {}", shown->entry + 1, places).c_str());
     ImGui::SameLine(0, 4 * frame.ui.scale);
     if (small_button(frame, ">"))
@@ -342,7 +344,8 @@ void doctor_panel(Frame& frame)
         for (size_t i = 0; i < order.size(); ++i)
             order[i] = int(i);
         std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-            const Finding &f = findings[size_t(a)], &g = findings[size_t(b)]; // the grave ones first
+            // the grave ones first
+            const Finding &f = findings[size_t(a)], &g = findings[size_t(b)];
             return std::pair(f.severity, has_fix(f)) > std::pair(g.severity, has_fix(g));
         });
         for (const int i : order) {

@@ -23,7 +23,8 @@ inline EditedRegion edit_of(const Document& document, int region)
     return {region, edited.name, true, document.session.part, edited.faces};
 }
 
-/// Whether that region is still there: undo and another part take it away, or put another one in its place.
+/// Whether that region is still there: undo and another part take it away, or put another one in
+/// its place.
 inline bool still_there(const EditedRegion& edited, const Document& document)
 {
     return edited.part == document.session.part && size_t(edited.region) < document.regions.size() &&

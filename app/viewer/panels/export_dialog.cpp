@@ -62,15 +62,16 @@ void verdict_banner(const Frame& frame, const ExportVerdict& verdict)
     ImGui::Dummy({width, height});
 }
 
-/// Goes on below a child that begins there and is to have this height from the next frame on. In the
-/// hidden frame in which a dialog opens the height of its content is not known before it is drawn,
-/// but its own is taken from there.
+/// Goes on below a child that begins there and is to have this height from the next frame on. In
+/// the hidden frame in which a dialog opens the height of its content is not known before it is
+/// drawn, but its own is taken from there.
 void go_on_below_child(float begin, float height)
 {
     ImGui::SetCursorPosY(begin + height + ImGui::GetStyle().ItemSpacing.y);
 }
 
-/// What is held against the result, each with its way out; scrolls where it is long. @returns whether a click asked to see it
+/// What is held against the result, each with its way out; scrolls where it is long. @returns
+/// whether a click asked to see it
 bool list_of_doubts(Frame& frame)
 {
     const float least = 1, most = 118 * frame.ui.scale, begin = ImGui::GetCursorPosY();
@@ -293,7 +294,8 @@ void files_list(const Frame& frame, const ExportChoices::Planned& planned)
     ImGui::PopFont();
 }
 
-/// What the dialog shows from the click on: how far it is, then what was written and where. @returns whether it is to be closed
+/// What the dialog shows from the click on: how far it is, then what was written and where.
+/// @returns whether it is to be closed
 bool outcome_of_export(Frame& frame)
 {
     const Palette p = palette_of(frame.state.view.dark);
@@ -425,7 +427,8 @@ void export_dialog(Frame& frame)
         answer_buttons(frame, choices.asked ? "Export anyway" : "Export", ready, choices.asked ? p.error : p.accent);
     const bool clicked = answer == Answer::yes;
     if (ready &&
-        (clicked || (enter_pressed(frame) && !choices.asked))) { // the second time Return is not deliberate enough
+        // the second time Return is not deliberate enough
+        (clicked || (enter_pressed(frame) && !choices.asked))) {
         if (doubtful && !choices.asked)
             choices.asked = true;
         else {

@@ -19,7 +19,8 @@ struct ExportChoices {
     std::vector<std::string> formats = {"iges", "step", "glb"};
     OutputOptions options;
     bool sent = false;  ///< the files are being written, or what became of them is shown
-    bool asked = false; ///< "Export" was pressed although the surface is far off; the next click exports it
+    bool asked = false; ///< "Export" was pressed although the surface is far off; the next click
+                        ///< exports it
 
     /// The files to come, and which of them are there already.
     struct Planned {

@@ -148,7 +148,8 @@ void FileDialog::go_to(const fs::path& folder)
                 continue;
         }
         const std::uintmax_t size = is_folder ? 0 : file.file_size(ignored);
-        entries_.push_back({file.path(), is_folder, ignored ? 0 : size}); // a broken link has no size
+        // a broken link has no size
+        entries_.push_back({file.path(), is_folder, ignored ? 0 : size});
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
         return a.folder != b.folder ? a.folder
@@ -277,7 +278,8 @@ void FileDialog::new_folder_row(bool enter)
     }
 }
 
-/// Says how many files are left out, and lets show them; at the right, in the row that says what there is.
+/// Says how many files are left out, and lets show them; at the right, in the row that says what
+/// there is.
 void FileDialog::others_row()
 {
     if (others_ == 0)

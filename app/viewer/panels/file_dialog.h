@@ -8,8 +8,9 @@ namespace spia::viewer {
 
 struct Frame;
 
-/// Chooses a file or a folder by mouse or keyboard: the arrows move in the list, Return takes what is chosen, Escape
-/// leaves. In a window of ImGui: on a Debian desktop there is no library for the system's own dialog.
+/// Chooses a file or a folder by mouse or keyboard: the arrows move in the list, Return takes what
+/// is chosen, Escape leaves. In a window of ImGui: on a Debian desktop there is no library for the
+/// system's own dialog.
 class FileDialog {
 public:
     enum class Purpose {
@@ -48,7 +49,8 @@ private:
     void list(const Frame& frame, float below);
     void new_folder_row(bool enter);
     void others_row();
-    /// Goes to the folder that is typed, if it is another one. @returns whether there is none or it could be done
+    /// Goes to the folder that is typed, if it is another one. @returns whether there is none or it
+    /// could be done
     bool follow_path_text();
     /// What is chosen now: a folder is entered, a file returned if it can be.
     std::optional<std::filesystem::path> take();

@@ -24,7 +24,8 @@ bool is_cad_file(const FileItems& items)
     return items.format == "STEP" || items.format == "IGES" || items.format == "BREP";
 }
 
-/// The choices that stand when the file appears: those that the part was read with if it is its file.
+/// The choices that stand when the file appears: those that the part was read with if it is its
+/// file.
 void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& listed)
 {
     ImportChoices fresh;
@@ -57,7 +58,8 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
     frame.ui.importing = std::move(fresh);
 }
 
-/// A length that was typed: nothing if the field is empty; false if it is none of those that projects keep.
+/// A length that was typed: nothing if the field is empty; false if it is none of those that
+/// projects keep.
 bool read_length(const std::string& text, LengthUnit unit, const Between& range, std::optional<double>& mm)
 {
     mm.reset();
@@ -76,7 +78,8 @@ std::string size_words(const ListedFile& listed, LengthUnit lengths)
 {
     if (!listed.picker)
         return "";
-    const bool known = is_cad_file(listed.items); // else the file has a unit that only the user knows
+    const bool known = is_cad_file(listed.items); // else the file has a unit that only the user
+                                                  // knows
     const Eigen::Vector3d size = listed.picker->box().sizes() / (known ? millimetres(lengths) : 1);
     return fmt::format("{:.4g} x {:.4g} x {:.4g}{}{}", size.x(), size.y(), size.z(), known ? " " : "",
                        known ? length_word(lengths) : "");
@@ -205,7 +208,8 @@ void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
         choices.hovered = hovered;
 }
 
-/// Has the shape of what is chosen made: at once if that takes no time, else the one before stays until it is ready.
+/// Has the shape of what is chosen made: at once if that takes no time, else the one before stays
+/// until it is ready.
 void follow_choice(ImportChoices& choices)
 {
     using Made = std::shared_ptr<const PreviewShape>;
@@ -461,7 +465,8 @@ void import_dialog(Frame& frame)
     const Answer answer = answer_buttons(frame, listing->again ? "Read again" : "Open", possible,
                                          palette_of(frame.state.view.dark).accent);
     note_place(frame, "import open");
-    if (possible && (answer == Answer::yes || (enter_pressed(frame) && !typing))) { // closes it unless it is refused
+    // closes it unless it is refused
+    if (possible && (answer == Answer::yes || (enter_pressed(frame) && !typing))) {
         if (listing->again)
             frame.actions.push(ReadAgain{choices.unit, *reading});
         else

@@ -34,14 +34,16 @@ struct ImportChoices {
     std::optional<int> hovered;     ///< an item
     Camera camera;
     Navigator navigator;
-    bool left = false, moved = false;          ///< the left button is down; the mouse has moved since it went down
+    bool left = false, moved = false;          ///< the left button is down; the mouse has moved
+                                               ///< since it went down
     std::shared_ptr<const PreviewShape> shape; ///< the newest that is ready; null: none yet
     Memo<Eventually<std::shared_ptr<const PreviewShape>>, std::shared_ptr<const ListedFile>, std::vector<char>> making;
     Memo<Scene, std::shared_ptr<const PreviewShape>, std::optional<int>> scene;
     std::shared_ptr<Worker> worker; ///< makes the shapes of large files
 };
 
-/// Shows a file that is looked into (ViewerState::listing), lets choose what of it is read and how, and opens it.
+/// Shows a file that is looked into (ViewerState::listing), lets choose what of it is read and how,
+/// and opens it.
 void import_dialog(Frame& frame);
 
 } // namespace spia::viewer

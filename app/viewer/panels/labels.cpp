@@ -41,7 +41,8 @@ Hidden hidden_in(Frame& frame, View view, glm::dvec2 size)
         return [](const glm::dvec3&) { return false; };
     const Camera& camera = frame.state.view.camera[size_t(view)];
     const auto kept = kept_in(frame.state.view, view);
-    const double touching = 0.004 * picker->box().diagonal().norm(); // mm; grids lie that near to the part
+    // mm; grids lie that near to the part
+    const double touching = 0.004 * picker->box().diagonal().norm();
     return [&camera, picker, size, touching, kept](const glm::dvec3& place) {
         const Ray ray = ray_through(camera, picker->box(), glm::dvec2(place), size);
         const RayHit hit = hit_at(camera, *picker, glm::dvec2(place), size, kept);
@@ -69,7 +70,8 @@ void find_places(Frame& frame, View view, const Scene& scene, glm::dvec2 size, b
 {
     const Camera& camera = frame.state.view.camera[size_t(view)];
     const Hidden hidden = hidden_in(frame, view, size);
-    const glm::dvec2 nowhere(-std::numeric_limits<double>::max()); // no label stands outside of the view
+    // no label stands outside of the view
+    const glm::dvec2 nowhere(-std::numeric_limits<double>::max());
     std::vector<LabelWish> wishes;
     for (const SceneLabel& label : scene.labels)
         wishes.push_back({cut_away(scene, label.place) ? nowhere : glm::dvec2(pixel_of(camera, label.place, size)),
@@ -145,7 +147,8 @@ void leader(ImDrawList* draw, ImVec2 from, const PixelBox& box, glm::dvec2 place
 
 void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* text)
 {
-    const float wide = std::max(1.f, std::round(ImGui::GetFontSize() / 15)); // as wide for large letters
+    // as wide for large letters
+    const float wide = std::max(1.f, std::round(ImGui::GetFontSize() / 15));
     for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1), ImVec2(-1, -1), ImVec2(1, 1),
                            ImVec2(1, -1), ImVec2(-1, 1)})
         draw->AddText({at.x + wide * d.x, at.y + wide * d.y}, halo, text);

@@ -42,8 +42,9 @@ void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* t
 /// @return what of the view it covers, pixels
 std::optional<PixelBox> draw_legend(const Frame& frame, const Scene& scene, ImVec2 from, ImVec2 size, ImDrawList* draw);
 
-/// The labels of a scene and the values of its isolines, none over another. A label that had to go aside has a line to
-/// its place; one whose place is hidden is pale, one whose place is cut away is not there.
+/// The labels of a scene and the values of its isolines, none over another. A label that had to go
+/// aside has a line to its place; one whose place is hidden is pale, one whose place is cut away is
+/// not there.
 /// @param taken  what none may cover, pixels of the view
 void draw_labels(Frame& frame, View view, const Scene& scene, ImVec2 from, ImVec2 size,
                  const std::vector<PixelBox>& taken, ImDrawList* draw);

@@ -14,7 +14,8 @@ void doubt_rows(Frame& frame, ChainStep step);
 /// All of them, by step. @returns whether a click asked to see something in the views
 bool all_doubt_rows(Frame& frame);
 
-/// "Ready", or what is to be looked at: a click on that lists it all, with the clicks that answer it.
+/// "Ready", or what is to be looked at: a click on that lists it all, with the clicks that answer
+/// it.
 void ready_light(Frame& frame);
 
 } // namespace spia::viewer

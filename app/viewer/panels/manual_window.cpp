@@ -11,7 +11,8 @@
 namespace spia::viewer {
 namespace {
 
-/// Lines of words in several looks, broken where there is no room. @returns the file of a link that was clicked, else empty
+/// Lines of words in several looks, broken where there is no room. @returns the file of a link that
+/// was clicked, else empty
 class Flow {
 public:
     Flow(Frame& frame, float width, ImFont* regular) : frame_(frame), regular_(regular), width_(width)
@@ -217,7 +218,8 @@ void contents(Frame& frame, ManualWindow& window)
     ImGui::EndChild();
 }
 
-/// By the keys, as far as they are not typed: the text moves up and down, left and right go to the chapter before and after.
+/// By the keys, as far as they are not typed: the text moves up and down, left and right go to the
+/// chapter before and after.
 void move_by_keys(ManualWindow& window, float line)
 {
     if (ImGui::GetIO().WantTextInput || !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows))
@@ -246,7 +248,8 @@ void chapter_on_screen(Frame& frame, ManualWindow& window)
     move_by_keys(window, ImGui::GetTextLineHeightWithSpacing());
     if (std::exchange(window.to_top, false))
         ImGui::SetScrollY(0);
-    const float width = std::min(ImGui::GetContentRegionAvail().x, 680 * s); // longer lines are hard to read
+    // longer lines are hard to read
+    const float width = std::min(ImGui::GetContentRegionAvail().x, 680 * s);
     std::string clicked;
     for (size_t k = 0; k < chapter.blocks.size(); ++k) {
         const ImVec2 from = ImGui::GetCursorScreenPos();

@@ -70,7 +70,8 @@ void law_table(const Frame& frame, const MaterialFit& fit, MaterialFitOptions& o
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::BeginDisabled(!law.law);
-        const std::string words = law.law ? describe(*law.law) : law.name + ": " + law.reason; // "Voce: 290 MPa ..."
+        // "Voce: 290 MPa ..."
+        const std::string words = law.law ? describe(*law.law) : law.name + ": " + law.reason;
         const size_t colon = words.find(": ");
         if (ImGui::RadioButton(words.substr(0, colon).c_str(), k == fit.taken))
             options.law = law.name;

@@ -10,7 +10,8 @@ namespace spia::viewer {
 
 struct Frame;
 
-/// What was chosen in the dialog that makes a material of a tensile test; kept until the program ends.
+/// What was chosen in the dialog that makes a material of a tensile test; kept until the program
+/// ends.
 struct MaterialChoices {
     std::string table;           ///< file of the test
     std::string file, suggested; ///< of the material, see follow()

@@ -40,7 +40,8 @@ Shown shown_grade(Frame& frame)
     if (shown.key.empty() || (draft == editor.draft.end() && !grade_called(grades, shown.key)))
         shown.key = frame.state.document.material;
     shown.grade = shown.key.starts_with(is_new) ? nullptr : grade_called(grades, shown.key);
-    if (!shown.grade && !shown.key.starts_with(is_new) && !grades.empty()) { // a file elsewhere, not in the list
+    // a file elsewhere, not in the list
+    if (!shown.grade && !shown.key.starts_with(is_new) && !grades.empty()) {
         shown.material = frame.state.document.session.options.flatten.material;
         shown.whole = true;
         return shown;
@@ -56,8 +57,8 @@ Shown shown_grade(Frame& frame)
     return shown;
 }
 
-/// Colours that all kinds of colour blindness keep apart [Okabe and Ito 2008], the yellow left out, which paper swallows; then
-/// the same in dashes.
+/// Colours that all kinds of colour blindness keep apart [Okabe and Ito 2008], the yellow left out,
+/// which paper swallows; then the same in dashes.
 ImU32 line_colour(size_t k, bool dark, float opacity)
 {
     const Colour colours[] = {

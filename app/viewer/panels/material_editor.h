@@ -13,17 +13,22 @@ namespace spia::viewer {
 
 struct Frame;
 
-/// What the editor of materials remembers; kept until the program ends, so that nothing typed is lost with the window.
+/// What the editor of materials remembers; kept until the program ends, so that nothing typed is
+/// lost with the window.
 struct MaterialEditor {
     using Grades = std::shared_ptr<const std::vector<Grade>>;
 
     bool appears = false;                  ///< opens in the next frame
-    std::string shown;                     ///< reference of a grade, or key of a draft; empty: that of the part
-    std::map<std::string, Material> draft; ///< changed and not saved: by reference, new ones by "new: NAME"
+    std::string shown;                     ///< reference of a grade, or key of a draft; empty: that
+                                           ///< of the part
+    std::map<std::string, Material> draft; ///< changed and not saved: by reference, new ones by
+                                           ///< "new: NAME"
     std::optional<std::string> hovered;    ///< of the list or the plot, in the last frame
-    std::string saving, saved_as;          ///< a draft that was asked to be saved, and its reference when it is
+    std::string saving, saved_as;          ///< a draft that was asked to be saved, and its
+                                           ///< reference when it is
     bool removing = false;                 ///< asks once more
-    bool test_for_editor = false;          ///< the dialog of the tensile test gives its material back to the editor
+    bool test_for_editor = false;          ///< the dialog of the tensile test gives its material
+                                           ///< back to the editor
     bool curve_for_editor = false;         ///< likewise the file of a forming limit curve
     std::string problem;                   ///< what went wrong in the editor itself
 

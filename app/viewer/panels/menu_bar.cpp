@@ -9,7 +9,8 @@ namespace spia::viewer {
 
 namespace {
 
-/// A key that acts in the view that has the keyboard, for the menu to say so: elsewhere a letter may be typed into a field.
+/// A key that acts in the view that has the keyboard, for the menu to say so: elsewhere a letter
+/// may be typed into a field.
 constexpr const char* in_view(const char* key)
 {
     constexpr std::pair<char, const char*> words[] = {{'+', "+ in a view"}, {'-', "- in a view"}, {'I', "I in a view"},

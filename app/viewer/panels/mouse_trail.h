@@ -6,9 +6,9 @@
 
 namespace spia::viewer {
 
-/// Where the mouse was when its buttons went down and up. A frame notices a press late: a fast hand is farther along
-/// by then, and what begins there (a box, a section, a corner that is taken) has lost its start. Nor does one place a
-/// frame tell the way it went (a lasso, a brush).
+/// Where the mouse was when its buttons went down and up. A frame notices a press late: a fast hand
+/// is farther along by then, and what begins there (a box, a section, a corner that is taken) has
+/// lost its start. Nor does one place a frame tell the way it went (a lasso, a brush).
 class MouseTrail {
 public:
     void moved(glm::dvec2 to)
@@ -26,8 +26,8 @@ public:
             events_.push_back({down, *at_});
     }
 
-    /// Where the mouse belongs in this frame: at its last press, in the next frame at the release that followed; nothing:
-    /// where it is. The frame after another is to come at once.
+    /// Where the mouse belongs in this frame: at its last press, in the next frame at the release
+    /// that followed; nothing: where it is. The frame after another is to come at once.
     std::optional<glm::dvec2> next()
     {
         held_ = false;
@@ -45,8 +45,8 @@ public:
         return place;
     }
 
-    /// Where it was with a button down since the last call, in order. In the frame of a press nothing: the way from there
-    /// belongs to the next one.
+    /// Where it was with a button down since the last call, in order. In the frame of a press
+    /// nothing: the way from there belongs to the next one.
     std::vector<glm::dvec2> take_path() { return held_ ? std::vector<glm::dvec2>{} : std::exchange(path_, {}); }
 
 private:

@@ -162,7 +162,8 @@ void end_line(Frame& frame)
     for (const Eigen::Vector3d& place : drawn) {
         Eigen::Index nearest = 0;
         (part.mesh.position.colwise() - place).colwise().squaredNorm().minCoeff(&nearest);
-        const int vertex = number_as_read(part, int(nearest)); // the part is cut before it is remeshed
+        // the part is cut before it is remeshed
+        const int vertex = number_as_read(part, int(nearest));
         if (seam.path[0].empty() || seam.path[0].back() != vertex)
             seam.path[0].push_back(vertex);
     }

@@ -13,11 +13,12 @@ namespace {
 
 constexpr const char* kinds[] = {"fixed", "binder", "pad", "punch", "material", "other"};
 
-/// What a binder or a pad presses with until it is told: the blank holder's usual pressure on steel. [Schuler, Metal Forming Handbook,
-/// Springer 1998, 4.2.1: 2.5 N/mm2]
+/// What a binder or a pad presses with until it is told: the blank holder's usual pressure on
+/// steel. [Schuler, Metal Forming Handbook, Springer 1998, 4.2.1: 2.5 N/mm2]
 constexpr double usual_pressure_MPa = 2.5;
 
-/// A tool that presses does so at once: a region that is called a binder and does nothing would be believed to hold the sheet.
+/// A tool that presses does so at once: a region that is called a binder and does nothing would be
+/// believed to hold the sheet.
 void press_as_usual(Frame& frame, int number, RegionKind kind)
 {
     if (kind == RegionKind::binder || kind == RegionKind::pad)

@@ -7,7 +7,8 @@ namespace spia::viewer {
 
 struct Frame;
 
-/// What was chosen in the report dialog; kept until the program ends, title and remarks until another part is opened.
+/// What was chosen in the report dialog; kept until the program ends, title and remarks until
+/// another part is opened.
 struct ReportChoices {
     ViewerReportOptions options;
     std::string file, suggested; ///< see follow()

@@ -55,7 +55,8 @@ public:
         const float size = letter.font->FontSize * scale, top = least.y - letter.glyph->Y0 * scale;
         const float from = least.x - letter.glyph->X0 * scale, to = from + letter.glyph->AdvanceX * scale;
         const float space = letter.font->GetCharAdvance(' ') * scale, gap = from - end_;
-        // Between two words there is a space; letters are moved by less than a pixel, columns are farther apart.
+        // Between two words there is a space; letters are moved by less than a pixel, columns are
+        // farther apart.
         const bool goes_on = text_ && std::abs(top - text_->at.y) < 1 && std::abs(size - text_->size.y) < 0.5f &&
                              gap > -0.5f * space && gap < 2.6f * space;
         if (!goes_on) {
@@ -102,7 +103,8 @@ std::vector<ScreenText> texts_on_screen(const ImDrawData& drawn)
                 };
                 const ImDrawVert &a = vertex(0), &c = vertex(2);
                 const auto letter = known.find({a.uv.x, a.uv.y});
-                // A letter is two triangles, a b c and a c d; other shapes have one place of the texture for all corners.
+                // A letter is two triangles, a b c and a c d; other shapes have one place of the
+                // texture for all corners.
                 const bool is_letter = letter != known.end() && index[3] == index[0] && index[4] == index[2] &&
                                        a.uv.x != c.uv.x && a.uv.y != c.uv.y;
                 if (!is_letter) {

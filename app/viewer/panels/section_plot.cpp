@@ -106,7 +106,8 @@ void section_plot(Frame& frame)
         const std::string far = length_text(length, frame.lengths());
         const char* words = frame.state.document.section->on_blank ? "along the cut of the blank" : "along the cut";
         draw->AddText({from.x, to.y + 3 * s}, ink(p.muted), "0");
-        const float taken = 2 * (ImGui::CalcTextSize(far.c_str()).x + 8 * s); // of a line with the words in its middle
+        // of a line with the words in its middle
+        const float taken = 2 * (ImGui::CalcTextSize(far.c_str()).x + 8 * s);
         if (ImGui::CalcTextSize(words).x + taken < to.x - from.x)
             draw->AddText({(from.x + to.x - ImGui::CalcTextSize(words).x) / 2, to.y + 3 * s}, ink(p.muted), words);
         draw->AddText({to.x - ImGui::CalcTextSize(far.c_str()).x, to.y + 3 * s}, ink(p.muted), far.c_str());

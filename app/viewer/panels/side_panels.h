@@ -2,7 +2,8 @@
 
 namespace spia::viewer {
 
-/// The panels beside the views: the steps, and the field with its charts. A narrow window has room for one of them.
+/// The panels beside the views: the steps, and the field with its charts. A narrow window has room
+/// for one of them.
 struct SidePanels {
     enum Which { steps, inspect };
     bool wanted[2] = {true, true};

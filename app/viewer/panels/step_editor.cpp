@@ -56,7 +56,8 @@ bool target_numbers(Frame& frame, StepTarget& target)
     return changed;
 }
 
-/// The face onto which a step lays: fitted, or by numbers, or from what is selected. @returns whether `edited` has changed
+/// The face onto which a step lays: fitted, or by numbers, or from what is selected. @returns
+/// whether `edited` has changed
 bool target_editor(Frame& frame, int number, ChangeStep& edited)
 {
     const Document& document = frame.state.document;

@@ -6,7 +6,8 @@
 /// The parts of the section "Step by step".
 namespace spia::viewer {
 
-/// A step in the list: its picture, name and figures, and below the chosen one what can be changed of it.
+/// A step in the list: its picture, name and figures, and below the chosen one what can be changed
+/// of it.
 void step_row(Frame& frame, int number);
 
 /// Name, target, options, place in the list: of the chosen step.

@@ -69,7 +69,8 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
     const Document& document = frame.state.document;
     const Palette p = palette_of(frame.state.view.dark);
     ImGui::PushFont(frame.ui.fonts.small);
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0}); // lines of one row
+    // lines of one row
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
     if (status == StepStatus::done || status == StepStatus::poor) {
         const StepFigures& figures = document.unfolding->figure[number];
         const UnfoldState& after = document.unfolding->run.states[number];
@@ -135,7 +136,8 @@ std::string name_in(std::string name, float width)
     return cut_to(name.substr(0, tail), room) + end;
 }
 
-/// A small picture of the step where there is room for it. @returns its width with what is beside it, pixels
+/// A small picture of the step where there is room for it. @returns its width with what is beside
+/// it, pixels
 float thumbnail(Frame& frame, size_t number, const ImVec4& border)
 {
     constexpr int most_triangles = 200'000; // of a part: each picture has a mesh of its own

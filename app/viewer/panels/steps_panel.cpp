@@ -120,7 +120,8 @@ void sheet_step(Frame& frame)
     const Material& material = document.session.options.flatten.material;
     tooltip(fmt::format("{}\n{}", material.name, material.source));
     double thickness = document.session.options.flatten.thickness;
-    ImGui::SetNextItemWidth((frame.lengths() == LengthUnit::inch ? 126 : 110) * frame.ui.scale); // four decimals
+    // four decimals
+    ImGui::SetNextItemWidth((frame.lengths() == LengthUnit::inch ? 126 : 110) * frame.ui.scale);
     const bool typing = frame.ui.typed.has_value();
     const bool changed =
         length_input(frame, "Thickness", thickness, {.mm = "%.3g", .step_mm = 0.05, .step_inch = 0.002});

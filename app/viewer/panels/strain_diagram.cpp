@@ -29,7 +29,8 @@ struct Axes {
     }
 };
 
-/// The plane reaches well above the points and to either side of pure plane strain: there runs the limit of forming.
+/// The plane reaches well above the points and to either side of pure plane strain: there runs the
+/// limit of forming.
 Axes axes_of(const SheetFigures& sheet, const FormingLimitCurve* curve, ImVec2 low, ImVec2 high)
 {
     constexpr double above = 1.3, least_height = 0.1, least_width = 0.1;
@@ -133,7 +134,8 @@ void draw_cloud(Frame& frame, const SheetFields& face, const Axes& axes, ImDrawL
             {corner.x, corner.y - high}, {corner.x + wide, corner.y},
             ink(ImVec4(mix(p.accent.x, p.error.x), mix(p.accent.y, p.error.y), mix(p.accent.z, p.error.z), opacity)));
     }
-    std::vector<char> taken(size_t(columns) * size_t(rows)); // thousands of selected faces need no dot each
+    std::vector<char> taken(size_t(columns) * size_t(rows)); // thousands of selected faces need no
+                                                             // dot each
     for (const int f : frame.state.document.selected) {
         const ImVec2 c = axes.place(face.strain_minor[f], face.strain_major[f]);
         const int column = std::clamp(int((c.x - axes.low.x) / wide), 0, columns - 1),

@@ -28,7 +28,8 @@ StressPlot stress_plot(const Frame& frame, float height, double strain, double s
                           strains.greatest,
                           stresses.greatest};
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    const int rows = (stresses.intervals + 3) / 4, columns = (strains.intervals + 7) / 8; // so many to a number
+    // so many to a number
+    const int rows = (stresses.intervals + 3) / 4, columns = (strains.intervals + 7) / 8;
     for (int k = 0; k <= stresses.intervals; k += rows) {
         const double value = plot.stress * k / stresses.intervals;
         const std::string text = fmt::format("{:.4g}", value);

@@ -15,8 +15,9 @@ inline int grow(ImGuiInputTextCallbackData* data)
     return 0;
 }
 
-/// A line of text that grows with what is typed. What stands there is selected when it gets the keyboard: typing takes its place, a second
-/// click sets the cursor. @param on_enter whether only Return counts as a change
+/// A line of text that grows with what is typed. What stands there is selected when it gets the
+/// keyboard: typing takes its place, a second click sets the cursor. @param on_enter whether only
+/// Return counts as a change
 inline bool text_input(const char* label, std::string& text, bool on_enter = false, const char* hint = "")
 {
     return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1,

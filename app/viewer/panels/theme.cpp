@@ -11,7 +11,8 @@ constexpr const char* inter = "/usr/share/fonts/opentype/inter/"; // Debian's fo
 
 ImFont* load(const char* file, float size, Fonts& fonts, bool few_glyphs = false)
 {
-    // In large pictures only those that labels and legends have, or the texture of all letters would be too large.
+    // In large pictures only those that labels and legends have, or the texture of all letters
+    // would be too large.
     static const ImWchar few[] = {0x20, 0xff, 0x2010, 0x2027, 0x2212, 0x2212, 0x2264, 0x2265, 0};
     constexpr float large = 80; // pixels
     static const ImWchar glyphs[] = {0x20,   0x17f,  0x2010, 0x2027, 0x2190, 0x2199, 0x2200,
@@ -108,7 +109,8 @@ void apply_theme(bool dark, float scale)
     c[ImGuiCol_HeaderHovered] = hover;
     c[ImGuiCol_HeaderActive] = dark ? rgb(0x3b4859) : rgb(0xcfdcf3);
     c[ImGuiCol_CheckMark] = c[ImGuiCol_PlotHistogram] = p.accent;
-    c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = dark ? rgb(0x2c57a3) : rgb(0xa8c5f5); // text is read on it
+    // text is read on it
+    c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = dark ? rgb(0x2c57a3) : rgb(0xa8c5f5);
     c[ImGuiCol_TextSelectedBg] = ImVec4(p.accent.x, p.accent.y, p.accent.z, 0.35f);
     c[ImGuiCol_NavHighlight] = p.accent;
     c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = dark ? rgb(0x262c34) : rgb(0xe9ecf1);

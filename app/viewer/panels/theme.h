@@ -9,7 +9,8 @@ struct Fonts {
     ImFont* bold = nullptr;
     ImFont* small = nullptr;
     ImFont* heading = nullptr; ///< of the manual, larger
-    std::string missing;       ///< which font file was not found, if any; ImGui's own font then takes its place
+    std::string missing;       ///< which font file was not found, if any; ImGui's own font then
+                               ///< takes its place
 };
 
 /// Loads the interface font in the sizes for a screen scale; call before the first frame.

@@ -26,8 +26,10 @@ bool has_options(Tool tool)
 
 /// How the tools and their options fit into the bar.
 struct BarStyle {
-    bool stacked = false;           ///< names under the signs; else only the chosen tool has its name, beside
-    bool two_rows = false;          ///< options below. The row is there whatever the tool, or views would jump.
+    bool stacked = false;           ///< names under the signs; else only the chosen tool has its
+                                    ///< name, beside
+    bool two_rows = false;          ///< options below. The row is there whatever the tool, or views
+                                    ///< would jump.
     float icon, gap, group, slider; ///< pixels
 };
 

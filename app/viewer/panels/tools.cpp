@@ -11,7 +11,8 @@
 
 namespace spia::viewer {
 
-/// The keys that turn and zoom a view, held down or not; a step of the mouse in pixels. @returns whether there was any
+/// The keys that turn and zoom a view, held down or not; a step of the mouse in pixels. @returns
+/// whether there was any
 static bool camera_keys(Frame& frame, View view)
 {
     const auto held = [&](int key) {
@@ -37,7 +38,8 @@ static bool camera_keys(Frame& frame, View view)
     return true;
 }
 
-/// The chosen corner goes along the outline of the blank; Return chooses the next one. @returns whether a key did it
+/// The chosen corner goes along the outline of the blank; Return chooses the next one. @returns
+/// whether a key did it
 static bool corner_keys(Frame& frame)
 {
     const Session& session = frame.state.document.session;
@@ -49,7 +51,8 @@ static bool corner_keys(Frame& frame)
         return true;
     }
     const int way = (pressed(frame, GLFW_KEY_RIGHT) || pressed(frame, GLFW_KEY_UP) ? 1 : 0) -
-                    (pressed(frame, GLFW_KEY_LEFT) || pressed(frame, GLFW_KEY_DOWN) ? 1 : 0); // counter-clockwise
+                    // counter-clockwise
+                    (pressed(frame, GLFW_KEY_LEFT) || pressed(frame, GLFW_KEY_DOWN) ? 1 : 0);
     if (way == 0)
         return false;
     const CornerTrack& track = frame.model.pickers().track(session);
@@ -136,7 +139,8 @@ void shortcuts(Frame& frame)
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId) || !frame.ui.dialogs.empty())
         return;
-    if (io.WantTextInput) { // what is typed is taken first, then the key counts; undo is that of the text
+    if (io.WantTextInput) { // what is typed is taken first, then the key counts; undo is that of
+                            // the text
         bool any = false;
         for (const KeyPress& press : frame.ui.keys)
             if ((press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F12) ||
@@ -150,7 +154,8 @@ void shortcuts(Frame& frame)
             ImGui::ClearActiveID();
         return;
     }
-    if (!ImGui::GetCurrentContext()->NavWindow) // a click into nothing took it: arrows and Alt would do nothing
+    if (!ImGui::GetCurrentContext()->NavWindow) // a click into nothing took it: arrows and Alt
+                                                // would do nothing
         ImGui::SetWindowFocus("workbench");
     const auto pressed = [&](int key) { return viewer::pressed(frame, key); };
     const auto with = [&](int modifier) { // as it was when the key went down, which may be up again

@@ -39,8 +39,8 @@ struct KeyPress {
     int key, modifiers;
 };
 
-/// Work that is not saved and out of sight, after a crash or an opening that failed, and the user's word on it; without one
-/// it stays.
+/// Work that is not saved and out of sight, after a crash or an opening that failed, and the user's
+/// word on it; without one it stays.
 struct LeftWork {
     enum class Answer { none, recover, discard, later };
     std::string text;  ///< what became of it
@@ -62,7 +62,8 @@ struct Typed {
 /// Handles of the surface on their way with the mouse.
 struct HandleDrag {
     HandleKind kind;
-    glm::dvec2 from, at;   ///< pixels of the view: where the button went down, and where the mouse was last
+    glm::dvec2 from, at;   ///< pixels of the view: where the button went down, and where the mouse
+                           ///< was last
     Eigen::Vector3d place; ///< mm, of the handle under the mouse
     bool moved = false;
 };
@@ -85,27 +86,34 @@ struct PanelAnchor {
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
-    float scale = 1; ///< of the screen, 1 for 96 dots per inch, times the size of the interface that is preferred
+    float scale = 1; ///< of the screen, 1 for 96 dots per inch, times the size of the interface
+                     ///< that is preferred
     float left_width = 300, right_width = 320;
     SidePanels panels;
     bool show_shortcuts = false, show_messages = false;
     bool show_export = false, show_picture = false, show_report = false, show_material = false,
-         show_preferences = false, show_about = false, show_animation = false; ///< dialogs that open in the next frame
-    std::map<int, double> message_since;                                       ///< seconds; by number
-    double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
+         /// dialogs that open in the next frame
+        show_preferences = false, show_about = false, show_animation = false;
+    /// seconds; by number
+    std::map<int, double> message_since;
+    double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0:
+                        ///< no
     FileDialog files;
     DialogQueue dialogs;
-    std::optional<View>
-        focus; ///< the view that single letters act in: the one that was clicked last; none: a panel has them
+    std::optional<View> focus;        ///< the view that single letters act in: the one that was
+                                      ///< clicked last; none: a panel has them
     bool by_keys = false;             ///< it was reached by a key, not by a click
-    int keyed_corner = 0;             ///< of the grid, which the arrows move with the tool for corners
+    int keyed_corner = 0;             ///< of the grid, which the arrows move with the tool for
+                                      ///< corners
     std::vector<KeyPress> keys;       ///< pressed since the last frame
-    std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been taken
+    std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been
+                                      ///< taken
     std::optional<Typed> typed;
     bool number_refused = false; ///< what was typed last into a field of numbers was none
     Memo<std::string, std::shared_ptr<const PartFile>, std::shared_ptr<const FlattenResult>, std::vector<int>>
         no_cut;            ///< why the picked vertices make no cut; empty: they do
-    int listed_place = -1; ///< of the fault that is shown: the list of its places was scrolled to it
+    int listed_place = -1; ///< of the fault that is shown: the list of its places was scrolled to
+                           ///< it
 
     // the view the mouse is busy in
     std::optional<View> busy;
@@ -116,12 +124,14 @@ struct Ui {
     std::array<Covered, 4> covered{}; ///< of the views, in the last frame
     PanelAnchor panel_anchor;
     std::optional<int> dragged_corner;
-    bool aside = false;            ///< drawn for a picture: the views of the window keep their sizes and cameras
+    bool aside = false;            ///< drawn for a picture: the views of the window keep their
+                                   ///< sizes and cameras
     glm::dvec2 corner_taken_at{0}; ///< pixels of the view
     bool corner_moved = false;     ///< since it was taken
     std::optional<HandleDrag> handle_drag;
-    std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
-    std::vector<glm::dvec2> path;  ///< where the mouse went since the last frame, a button down, pixels of the window
+    std::vector<glm::dvec2> trail;     ///< of box and lasso, pixels of the view
+    std::vector<glm::dvec2> path;      ///< where the mouse went since the last frame, a button
+                                       ///< down, pixels of the window
     std::vector<Eigen::Vector3d> line; ///< being drawn: places on the part, mm
     DrawnLine drawn_line = DrawnLine::drawbead;
     std::array<ImVec2, 4> view_from{}, view_size{};
@@ -138,7 +148,8 @@ struct Ui {
     AnimationChoices animating;
     std::optional<AnimationRun> animation; ///< the one that is being made; null: none
     ManualWindow manual;
-    std::vector<std::pair<std::string, std::string>> versions; ///< of the program and the libraries that it runs with
+    /// of the program and the libraries that it runs with
+    std::vector<std::pair<std::string, std::string>> versions;
 
     Charts charts;
     std::optional<SectionMark> section_mark;
@@ -146,10 +157,14 @@ struct Ui {
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;
     std::optional<EditedRegion> edited_region;
-    int step_fixed = 0, step_freed = -1;                ///< regions of the step to be added; -1: the selection
-    int step_onto = -1;                                 ///< region whose plane is its target; -1: fitted to what stays
-    bool polish_steps = false;                          ///< their blank, when it is taken for the chain
-    std::map<std::string, std::array<ImVec2, 2>> items; ///< of steps and import, from and to: where a mouse finds them
+    int step_fixed = 0, step_freed = -1;                ///< regions of the step to be added; -1:
+                                                        ///< the selection
+    int step_onto = -1;                                 ///< region whose plane is its target; -1:
+                                                        ///< fitted to what stays
+    bool polish_steps = false;                          ///< their blank, when it is taken for the
+                                                        ///< chain
+    std::map<std::string, std::array<ImVec2, 2>> items; ///< of steps and import, from and to: where
+                                                        ///< a mouse finds them
     std::vector<StepPicture> step_pictures;
     bool steps_listed = false;          ///< in the last frame
     std::optional<float> playing;       ///< the unfolding, at this position
@@ -178,7 +193,8 @@ struct PictureOnScreen {
 /// The picture of a view.
 struct DrawnView {
     ImTextureID texture;
-    bool old = false; ///< it shows another scene yet, say the field before: nothing may be read from it
+    bool old = false; ///< it shows another scene yet, say the field before: nothing may be read
+                      ///< from it
 };
 
 /// Everything a panel may look at and act through.
@@ -208,7 +224,8 @@ void process_section(Frame& frame);
 /// Makes a drawbead, a pilot or a seam of the line that was drawn.
 void end_line(Frame& frame);
 void regions_section(Frame& frame);
-/// Makes a region of the picked faces; a tool presses at once, and is asked what with. The name may be empty.
+/// Makes a region of the picked faces; a tool presses at once, and is asked what with. The name may
+/// be empty.
 void make_region(Frame& frame, const std::string& called, RegionKind kind);
 /// Unfolding step by step.
 void unfolding_section(Frame& frame);
@@ -233,7 +250,8 @@ void toggle_clip(Frame& frame);
 void dialogs(Frame& frame);
 /// The result beside the reference that was kept.
 void comparison_section(Frame& frame);
-/// The newest messages below the views, which end where they begin; what only confirms goes by itself.
+/// The newest messages below the views, which end where they begin; what only confirms goes by
+/// itself.
 struct MessageStrip {
     std::vector<Message> shown; ///< the newest first
     size_t more = 0;            ///< that have no room

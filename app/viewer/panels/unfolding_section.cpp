@@ -96,7 +96,8 @@ void slider(Frame& frame)
         const double wanted =
             std::clamp(std::abs(double(position) - nearest) < near ? nearest : double(position), 0., done);
         playing.reset();
-        if (wanted != step_position(frame.state)) // held still near a whole one it is no news in every frame
+        if (wanted != step_position(frame.state)) // held still near a whole one it is no news in
+                                                  // every frame
             frame.actions.push(ShowStep{{}, wanted});
     }
     note_place(frame, "slider");

@@ -9,7 +9,8 @@
 namespace spia::viewer {
 namespace {
 
-/// The place under the mouse comes into the middle of the view, and is what the view turns about from then on.
+/// The place under the mouse comes into the middle of the view, and is what the view turns about
+/// from then on.
 Camera centred(Frame& frame, View view, const Mouse& mouse, const Camera& camera)
 {
     const RayPicker* picker = frame.model.pickers().ready_picker(frame.state.document.session, view);
@@ -145,7 +146,8 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
                                       : title(view));
     ImGui::PopFont();
     ImGui::PushFont(frame.ui.fonts.small);
-    const bool old = is_old(frame.state, view) && !frame.ui.dragged_corner && !of_refused; // the quads follow it
+    // the quads follow it
+    const bool old = is_old(frame.state, view) && !frame.ui.dragged_corner && !of_refused;
     if (old) {
         ImGui::SameLine();
         ImGui::TextColored(p.warning, "old");
@@ -261,7 +263,8 @@ float splitter(const Frame& frame, const char* id, ImVec2 at, ImVec2 size, bool 
     return share;
 }
 
-/// Whatever was being dragged ends with the buttons, also where the tool or the part changed on the way.
+/// Whatever was being dragged ends with the buttons, also where the tool or the part changed on the
+/// way.
 void end_drags(Frame& frame)
 {
     if (ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2))
@@ -316,7 +319,8 @@ void view_area(Frame& frame)
     const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
     if (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))
         frame.ui.focus.reset(); // unless a view is clicked
-    bool points = false;        // what is under the mouse shows in all views, also those before the mouse's
+    bool points = false;        // what is under the mouse shows in all views, also those before the
+                                // mouse's
     if (const auto only = frame.state.view.maximised) {
         if (!one_view(frame, *only, at, size))
             frame.model.hover_nothing();

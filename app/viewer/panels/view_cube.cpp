@@ -12,7 +12,8 @@ namespace {
 constexpr float large_cube = 88, small_cube = 66, cube_gap = 6;
 constexpr float triad_size = 56;
 
-/// Turned anyhow, the cube reaches hardly beyond its place: its corners are sqrt(3) half edges from the middle.
+/// Turned anyhow, the cube reaches hardly beyond its place: its corners are sqrt(3) half edges from
+/// the middle.
 float half_edge(const PixelBox& place) { return float(place.greatest.x - place.least.x) / (2 * 1.62f); }
 
 ImVec4 mixed(const ImVec4& a, const ImVec4& b, float share)
@@ -20,12 +21,14 @@ ImVec4 mixed(const ImVec4& a, const ImVec4& b, float share)
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z), 1};
 }
 
-/// Text whose letters run along `right` and stand along `up`, in pixels of the screen, about a middle.
+/// Text whose letters run along `right` and stand along `up`, in pixels of the screen, about a
+/// middle.
 void slanted_text(ImDrawList* draw, ImFont* font, const char* text, ImVec2 middle, glm::vec2 right, glm::vec2 up,
                   ImU32 colour)
 {
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text);
-    // Letters outside of what is drawn on would be left out, so they are laid out in its corner and moved then.
+    // Letters outside of what is drawn on would be left out, so they are laid out in its corner and
+    // moved then.
     const ImVec2 corner(std::ceil(draw->GetClipRectMin().x), std::ceil(draw->GetClipRectMin().y));
     const int first = draw->VtxBuffer.Size;
     draw->AddText(font, font->FontSize, corner, colour, text);
@@ -106,7 +109,8 @@ bool view_cube(Frame& frame, View view, const PixelBox& place, const Mouse& mous
         std::reverse(corner, corner + 4); // clockwise on the screen, whose y runs down
         draw->AddConvexPolyFilled(corner, 4, ink(colour));
     }
-    for (const CubePiece& piece : cube_pieces(camera.turn)) { // outlines of the faces, over all pieces
+    // outlines of the faces, over all pieces
+    for (const CubePiece& piece : cube_pieces(camera.turn)) {
         const bool centre = std::abs(piece.side[0]) + std::abs(piece.side[1]) + std::abs(piece.side[2]) == 1;
         if (!centre)
             continue;

@@ -9,7 +9,8 @@
 namespace spia::viewer {
 namespace {
 
-constexpr double click_reach = 8; ///< pixels at content scale 1: so near to a vertex a click means it
+constexpr double click_reach = 8; ///< pixels at content scale 1: so near to a vertex a click means
+                                  ///< it
 
 /// The corners of the blank follow the mouse along the outline.
 void drag_corners(Frame& frame, const Mouse& mouse)
@@ -44,7 +45,8 @@ void drag_corners(Frame& frame, const Mouse& mouse)
     ui.corner_moved = false;
 }
 
-/// Picked handles of the surface follow the mouse, in the plane of the picture; a click alone picks.
+/// Picked handles of the surface follow the mouse, in the plane of the picture; a click alone
+/// picks.
 void drag_handles(Frame& frame, View view, const Mouse& mouse)
 {
     Ui& ui = frame.ui;
@@ -88,8 +90,9 @@ std::vector<glm::dvec2> way_since_last_frame(const Ui& ui, const Mouse& mouse, I
     return way;
 }
 
-/// The place on the part under the mouse. A seam runs along edges: its places are vertices, where it can those of the outline,
-/// since a seam that ends a little before it does not cut the part open.
+/// The place on the part under the mouse. A seam runs along edges: its places are vertices, where
+/// it can those of the outline, since a seam that ends a little before it does not cut the part
+/// open.
 std::optional<Eigen::Vector3d> place_of_line(Frame& frame, View view, const Mouse& mouse)
 {
     const Session& session = frame.state.document.session;

@@ -34,11 +34,13 @@ void click_with_tool(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
 /// What the places cover that were clicked for a measurement to be, pixels of the view.
 std::vector<PixelBox> measuring_dots(Frame& frame, View view, glm::dvec2 size);
 
-/// Where the view cube of a view of this size lies, pixels of the view; nothing where there is no room for it, and in a flat view.
+/// Where the view cube of a view of this size lies, pixels of the view; nothing where there is no
+/// room for it, and in a flat view.
 std::optional<PixelBox> cube_place(const Frame& frame, View view, glm::dvec2 size);
 /// Draws the cube and follows the mouse on it. @returns whether the mouse is busy with it
 bool view_cube(Frame& frame, View view, const PixelBox& place, const Mouse& mouse, ImVec2 from, ImDrawList* draw);
-/// The axes of space, lower left, beside the legend. @returns what of the view it covers, pixels; nothing if there is no room
+/// The axes of space, lower left, beside the legend. @returns what of the view it covers, pixels;
+/// nothing if there is no room
 std::optional<PixelBox> axis_triad(const Frame& frame, View view, const std::optional<PixelBox>& legend,
                                    glm::dvec2 size, ImVec2 from, ImDrawList* draw);
 

@@ -68,7 +68,7 @@ static std::string shown_number(double value, const char* format)
     return text.data();
 }
 
-/// A number with buttons between it and its label. @param typed  its text and whether that was typed
+/// A number with buttons between it and its label. @param typed its text and whether that was typed
 /// @param active whether it is being typed. @returns -1 or 1 where a button is pressed, else 0
 static int with_step_buttons(const char* label, Typed& typed, bool& active)
 {
@@ -120,7 +120,8 @@ static bool in_a_row(const char* label, Typed& typed, int count)
     return active;
 }
 
-/// A number that was typed, if it is one; an empty field is no change. @returns whether `value` has changed
+/// A number that was typed, if it is one; an empty field is no change. @returns whether `value` has
+/// changed
 static bool take_typed(Frame& frame, std::string_view label, const std::string& text, const char* format, double& value)
 {
     label = label.substr(0, label.find("##"));
@@ -289,7 +290,8 @@ void begin_scrolled(const Frame& frame, const char* name, float height)
 std::string broken(const std::string& text, float room)
 {
     const ImFont* font = ImGui::GetFont();
-    const float size = ImGui::GetFontSize(), slack = 1; // pixels; else ImGui would break a full line once more
+    const float size = ImGui::GetFontSize(), slack = 1; // pixels; else ImGui would break a full
+                                                        // line once more
     return broken_at_spaces(text, room - slack, [&](std::string_view piece) {
         return font->CalcTextSizeA(size, FLT_MAX, 0, piece.data(), piece.data() + piece.size()).x;
     });
@@ -358,7 +360,8 @@ static ImVec2 beside_item(ImVec2 size, float lower)
     const ImVec2 screen = ImGui::GetIO().DisplaySize, least = ImGui::GetItemRectMin(),
                  greatest = ImGui::GetItemRectMax();
     const ImVec2 window = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
-    constexpr float narrow = 0.45f; // of the screen: a panel, a dialog or a list, beside which there is room
+    constexpr float narrow = 0.45f; // of the screen: a panel, a dialog or a list, beside which
+                                    // there is room
     const float gap = 0.5f * ImGui::GetFontSize();
     const float y = std::clamp(least.y, 0.f, std::max(0.f, screen.y - size.y));
     if (extent.x < narrow * screen.x) {
@@ -383,7 +386,8 @@ void tooltip(const std::string& text, float lower)
                  pad = ImGui::GetStyle().WindowPadding;
     ImGui::SetNextWindowPos(beside_item({words.x + 2 * pad.x, words.y + 2 * pad.y}, lower));
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room); // of words that are wider by themselves, such as paths
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room); // of words that are wider by themselves,
+                                                           // such as paths
     ImGui::TextUnformatted(lines.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();

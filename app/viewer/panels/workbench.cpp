@@ -75,7 +75,8 @@ void animation_status(Frame& frame, AnimationRun& run)
     ImGui::EndDisabled();
 }
 
-/// What is under the mouse has a place of its own, right of what there is to look at. @param room  pixels
+/// What is under the mouse has a place of its own, right of what there is to look at. @param room
+/// pixels
 void under_mouse(Frame& frame, float room)
 {
     const ViewerState& state = frame.state;
@@ -105,7 +106,8 @@ void under_mouse(Frame& frame, float room)
                                        frame.lengths()),
                             vertex && is_smoothed(state.document.display) ? ", mean of the faces around it" : "");
     }
-    for (const std::string& text : {what + place + value, what + value, what}) // as much as there is room for
+    // as much as there is room for
+    for (const std::string& text : {what + place + value, what + value, what})
         if (ImGui::CalcTextSize(text.c_str()).x <= room) {
             ImGui::TextUnformatted(text.c_str());
             return;

@@ -27,7 +27,8 @@ void SceneDrawer::draw_faces(const Pass& pass, const SceneLayer& layer)
     ShaderProgram& shader = mesh_shader_;
     shader.use();
     place(shader, pass, layer.mesh->origin);
-    shader.set("push", transparent(layer) ? ghost_push * pass.lift : 0.f); // or it would show through what lies on it
+    // or it would show through what lies on it
+    shader.set("push", transparent(layer) ? ghost_push * pass.lift : 0.f);
     shader.set("front", layer.colour);
     shader.set("back", Colour{layer.back[0], layer.back[1], layer.back[2], layer.colour[3]});
     shader.set("lit", layer.lit);

@@ -37,7 +37,8 @@ void SceneDrawer::draw_layer_lines(const Pass& pass, const SceneLayer& layer)
     };
     if (layer.edges && !is_coarse(pass, layer))
         stroke(mesh.edge, layer.mesh->edge, 1, 0.38f, false, 0);
-    const bool isolines = layer.field && layer.scale.isolines; // in the same ink: they are what is asked about
+    // in the same ink: they are what is asked about
+    const bool isolines = layer.field && layer.scale.isolines;
     if (layer.features)
         stroke(mesh.feature, layer.mesh->feature, 1.4f, isolines ? 0.25f : 0.7f, true, 0.5f * pass.lift);
 }

@@ -23,7 +23,8 @@ public:
 
 private:
     std::vector<std::array<uint8_t, 3>> colours_;
-    std::vector<int16_t> nearest_; ///< by the upper six bits of red, green and blue; -1: not looked for yet
+    std::vector<int16_t> nearest_; ///< by the upper six bits of red, green and blue; -1: not looked
+                                   ///< for yet
 };
 
 /// An animation in memory that repeats for ever.
@@ -48,8 +49,8 @@ private:
     GifFileType* file_ = nullptr;
 };
 
-/// How long each of so many pictures is shown, in hundredths of a second, so that all together take the time; 2 at least, which is
-/// the shortest that programs keep to.
+/// How long each of so many pictures is shown, in hundredths of a second, so that all together take
+/// the time; 2 at least, which is the shortest that programs keep to.
 std::vector<int> gif_delays(int pictures, double seconds);
 
 } // namespace spia::viewer

@@ -46,10 +46,12 @@ using VertexArray = GlObject<gl::make_vertex_array, gl::drop_vertex_array>;
 using Framebuffer = GlObject<gl::make_framebuffer, gl::drop_framebuffer>;
 using Renderbuffer = GlObject<gl::make_renderbuffer, gl::drop_renderbuffer>;
 
-/// @throws Error if OpenGL has complained since the last call; names the complaint and `doing`, e.g. "drawing a view"
+/// @throws Error if OpenGL has complained since the last call; names the complaint and `doing`,
+/// e.g. "drawing a view"
 void check_gl(const char* doing);
 
-/// @throws Error if the current context is older than OpenGL 3.3 or no desktop OpenGL; says what it is and what to do
+/// @throws Error if the current context is older than OpenGL 3.3 or no desktop OpenGL; says what it
+/// is and what to do
 void require_gl_3_3();
 
 } // namespace spia::viewer

@@ -10,7 +10,8 @@ namespace spia::viewer {
 class Offscreen {
 public:
     /// @param samples  per pixel; as many as the graphics card offers if that is fewer
-    /// @throws Error if there is not enough graphics memory, or the card does not draw pictures of this size
+    /// @throws Error if there is not enough graphics memory, or the card does not draw pictures of
+    /// this size
     Offscreen(int width, int height, int samples);
 
     int width() const { return width_; }
@@ -21,7 +22,8 @@ public:
     void begin() const;   ///< what is drawn from now on lands here
     void clear() const;   ///< to nothing, transparent
     void resolve() const; ///< to the texture, which is then bound for reading
-    /// Resolves and reads: 4 bytes per pixel, rows from below. Leaves the framebuffer of the window bound.
+    /// Resolves and reads: 4 bytes per pixel, rows from below. Leaves the framebuffer of the window
+    /// bound.
     std::vector<uint8_t> pixels() const;
 
 private:

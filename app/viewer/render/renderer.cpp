@@ -35,7 +35,8 @@ std::filesystem::path Renderer::default_shader_folder()
     return folder && *folder ? folder : SPIA_SHADERS_DIR;
 }
 
-/// What an image shows; holding the scene keeps its objects, so that their addresses tell whether it is the same one.
+/// What an image shows; holding the scene keeps its objects, so that their addresses tell whether
+/// it is the same one.
 struct Renderer::Image::Drawn {
     Offscreen target;
     Scene scene;
@@ -106,7 +107,8 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
         throw InputError(fmt::format("a picture of {} x {} pixels cannot be made; ask for 1 to {} million pixels",
                                      width, height, most_pixels / 1000000));
     Picture result{width, height, std::vector<uint8_t>(size_t(width) * size_t(height) * 4)};
-    // Even, so that the groups of 2 x 2 pixels from which slopes are taken are the same in every tiling.
+    // Even, so that the groups of 2 x 2 pixels from which slopes are taken are the same in every
+    // tiling.
     const int side = std::max(2, std::min(largest_tile, longest_side()) / 2 * 2);
     for (int y = 0; y < height; y += side)
         for (int x = 0; x < width; x += side) {

@@ -13,11 +13,12 @@ namespace spia::viewer {
 struct Look {
     bool dark = true;
     bool gradient = true;    ///< of the background; else it has one colour
-    bool ground = true;      ///< else what shows nothing is transparent; `dark` is then of no matter
+    bool ground = true;      ///< else what shows nothing is transparent; `dark` is then of no
+                             ///< matter
     float content_scale = 1; ///< of the screen: how many pixels a line of width 1 has
     int samples = 4;         ///< per pixel, against jagged edges; fewer if the graphics card cannot
-    int most_triangles =
-        0; ///< of a mesh, about; a finer one is drawn coarse, without its edges: while a view moves. 0: no limit
+    int most_triangles = 0;  ///< of a mesh, about; a finer one is drawn coarse, without its edges:
+                             ///< while a view moves. 0: no limit
 
     friend bool operator==(const Look&, const Look&) = default;
 };
@@ -28,15 +29,18 @@ Colour background(const Look& look);
 /// A picture in memory.
 struct Picture {
     int width = 0, height = 0;
-    std::vector<uint8_t> rgba; ///< rows from the top, 4 bytes per pixel, sRGB, not multiplied by the opacity
+    std::vector<uint8_t> rgba; ///< rows from the top, 4 bytes per pixel, sRGB, not multiplied by
+                               ///< the opacity
 };
 
 class SceneDrawer;
 
-/// Draws scenes with OpenGL 3.3 core. Made, used and destroyed on one thread while the same context is current.
+/// Draws scenes with OpenGL 3.3 core. Made, used and destroyed on one thread while the same context
+/// is current.
 class Renderer {
 public:
-    /// @throws Error if the context is older than OpenGL 3.3, or a shader cannot be read or compiled
+    /// @throws Error if the context is older than OpenGL 3.3, or a shader cannot be read or
+    /// compiled
     explicit Renderer(const std::filesystem::path& shader_folder = default_shader_folder());
     ~Renderer();
 
@@ -54,9 +58,10 @@ public:
         std::unique_ptr<Drawn> drawn_;
     };
 
-    /// Draws into the image, which takes this size, unless it shows just that already. Leaves the framebuffer of the
-    /// window bound, depth test, culling and blending off.
-    /// @return a texture of OpenGL, opaque, its first row below: ImGui::Image(texture, size, {0, 1}, {1, 0})
+    /// Draws into the image, which takes this size, unless it shows just that already. Leaves the
+    /// framebuffer of the window bound, depth test, culling and blending off.
+    /// @return a texture of OpenGL, opaque, its first row below: ImGui::Image(texture, size, {0,
+    /// 1}, {1, 0})
     /// @throws Error if OpenGL fails
     unsigned draw(Image& image, const Scene& scene, const Camera& camera, int width, int height, const Look& look);
 
@@ -68,17 +73,20 @@ public:
     /// What the image shows, whatever it is; 0: nothing yet.
     static unsigned texture(const Image& image);
 
-    /// The same as a picture of any size, in tiles if it is larger than what the graphics card draws at once.
+    /// The same as a picture of any size, in tiles if it is larger than what the graphics card
+    /// draws at once.
     /// @param largest_tile  pixels; limits the graphics memory
-    /// @throws Error if OpenGL fails; InputError if the size is not positive or is too large for the memory
+    /// @throws Error if OpenGL fails; InputError if the size is not positive or is too large for
+    /// the memory
     Picture picture(const Scene& scene, const Camera& camera, int width, int height, const Look& look,
                     int largest_tile = 2048);
 
-    /// Whether OpenGL is computed by the processor, without a graphics card: then one sample per pixel while a view
-    /// moves keeps it three times as quick.
+    /// Whether OpenGL is computed by the processor, without a graphics card: then one sample per
+    /// pixel while a view moves keeps it three times as quick.
     bool in_software() const;
 
-    /// How many pictures have been drawn, and how many things lie on the graphics card: for tests and benchmarks.
+    /// How many pictures have been drawn, and how many things lie on the graphics card: for tests
+    /// and benchmarks.
     int pictures_drawn() const;
     size_t uploads() const;
 

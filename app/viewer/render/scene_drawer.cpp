@@ -72,7 +72,8 @@ void SceneDrawer::draw(const Scene& scene, const Camera& camera, const Tile& til
     Eigen::AlignedBox3d box = bounds(scene);
     if (box.isEmpty())
         box = Eigen::AlignedBox3d(Eigen::Vector3d::Zero());
-    const double aspect = double(tile.picture.x) / tile.picture.y, pixel = camera.height / tile.picture.y; // mm
+    // mm
+    const double aspect = double(tile.picture.x) / tile.picture.y, pixel = camera.height / tile.picture.y;
     const float lift = float(std::min(1.5e-3 * box.diagonal().norm(), 2 * pixel * look.content_scale));
     const Pass pass{scene, camera, tile, look, glm::mat4(tile.zoom() * projection_matrix(camera, aspect, box)), lift};
 
@@ -83,7 +84,8 @@ void SceneDrawer::draw(const Scene& scene, const Camera& camera, const Tile& til
     glEnable(GL_MULTISAMPLE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glBlendEquation(GL_FUNC_ADD);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA); // stays opaque
+    // stays opaque
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_TRUE);
     glClearDepth(1);
@@ -98,7 +100,8 @@ void SceneDrawer::draw(const Scene& scene, const Camera& camera, const Tile& til
     if (scene.kept)
         glEnable(GL_CLIP_DISTANCE0);
 
-    // Solid faces first, then all lines that they may hide, then what one looks through, then what lies on top.
+    // Solid faces first, then all lines that they may hide, then what one looks through, then what
+    // lies on top.
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1, 1); // behind the lines on them

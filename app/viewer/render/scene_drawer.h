@@ -27,7 +27,8 @@ public:
     /// @throws Error if a shader cannot be read or compiled
     explicit SceneDrawer(const std::filesystem::path& shader_folder);
 
-    /// Into the framebuffer that is bound. Leaves depth test, culling and blending off. @throws Error if OpenGL fails
+    /// Into the framebuffer that is bound. Leaves depth test, culling and blending off. @throws
+    /// Error if OpenGL fails
     void draw(const Scene& scene, const Camera& camera, const Tile& tile, const Look& look);
     int pictures() const { return pictures_; } ///< drawn so far
     const Uploads& uploads() const { return uploads_; }
@@ -40,7 +41,8 @@ private:
         const Tile& tile;
         const Look& look;
         glm::mat4 projection;
-        float lift; ///< mm towards the viewer, for what lies on a surface; away for what lies behind
+        float lift; ///< mm towards the viewer, for what lies on a surface; away for what lies
+                    ///< behind
     };
     Eigen::AlignedBox3d bounds(const Scene& scene);
     static bool is_coarse(const Pass& pass, const SceneLayer& layer);

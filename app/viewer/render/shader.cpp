@@ -21,7 +21,8 @@ std::string read(const std::filesystem::path& file)
     return text.str();
 }
 
-/// What the compiler or linker said. @param get, get_log: glGetShaderiv and glGetShaderInfoLog or those of a program
+/// What the compiler or linker said. @param get, get_log: glGetShaderiv and glGetShaderInfoLog or
+/// those of a program
 template <class Get, class GetLog> std::string log_of(GLuint object, const Get& get, const GetLog& get_log)
 {
     GLint length = 0;

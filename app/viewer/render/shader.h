@@ -13,7 +13,8 @@ namespace spia::viewer {
 /// A vertex and a fragment shader, NAME.vert and NAME.frag of one folder, linked.
 class ShaderProgram {
 public:
-    /// @throws Error if a file cannot be read or does not compile; names the file and quotes the compiler
+    /// @throws Error if a file cannot be read or does not compile; names the file and quotes the
+    /// compiler
     ShaderProgram(const std::filesystem::path& folder, const std::string& name);
     ~ShaderProgram();
     ShaderProgram(const ShaderProgram&) = delete;

@@ -130,7 +130,8 @@ template <class Shelf, class Thing, class Make>
 auto& find_or(Shelf& shelf, const std::shared_ptr<Thing>& thing, const Make& make)
 {
     auto found = shelf.find(thing.get());
-    if (found != shelf.end() && found->second.thing.expired()) { // another object at the address of a former one
+    // another object at the address of a former one
+    if (found != shelf.end() && found->second.thing.expired()) {
         shelf.erase(found);
         found = shelf.end();
     }

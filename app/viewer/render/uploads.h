@@ -33,8 +33,8 @@ struct MeshBuffer {
     std::optional<CoarseBuffer> coarse;      ///< likewise
 };
 
-/// A field or marks: a vertex attribute if there is one value per vertex, else a texture that is read by number of
-/// face.
+/// A field or marks: a vertex attribute if there is one value per vertex, else a texture that is
+/// read by number of face.
 struct ValueBuffer {
     Buffer values;
     std::optional<Texture> by_face;
@@ -52,11 +52,12 @@ struct LooseLineBuffer {
     Eigen::AlignedBox3d box;
 };
 
-/// What of the scenes lies on the graphics card. A thing is known by the object its shared pointer holds, and forgotten
-/// when nobody holds it any more.
+/// What of the scenes lies on the graphics card. A thing is known by the object its shared pointer
+/// holds, and forgotten when nobody holds it any more.
 class Uploads {
 public:
-    /// Uploads what is not there yet. A field has one value per vertex or face of its mesh, marks one per face.
+    /// Uploads what is not there yet. A field has one value per vertex or face of its mesh, marks
+    /// one per face.
     /// @throws Error if these counts are wrong, or an index names a vertex that does not exist
     MeshBuffer& of(const std::shared_ptr<const SceneMesh>& mesh);
     ValueBuffer& of(const std::shared_ptr<const SceneField>& field, const SceneMesh& on);

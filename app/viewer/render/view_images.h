@@ -7,15 +7,18 @@
 
 namespace spia::viewer {
 
-/// Which of several views are drawn in a frame when all together would take too long: the others keep their last picture
-/// until the next frame. The one that waits longest always has its turn, so every view follows in the end.
+/// Which of several views are drawn in a frame when all together would take too long: the others
+/// keep their last picture until the next frame. The one that waits longest always has its turn, so
+/// every view follows in the end.
 class DrawTurns {
 public:
-    /// @param budget  ms; once that much is spent in a frame, only an urgent view and the one whose turn it is are drawn
+    /// @param budget  ms; once that much is spent in a frame, only an urgent view and the one whose
+    /// turn it is are drawn
     explicit DrawTurns(double budget) : budget_(budget) {}
 
     void begin_frame();
-    /// Whether view `index` is drawn now; if not it waits. Ask once per frame and view that needs drawing.
+    /// Whether view `index` is drawn now; if not it waits. Ask once per frame and view that needs
+    /// drawing.
     /// @param urgent  the user is busy in it
     bool may_draw(size_t index, bool urgent);
     void spent(double ms) { spent_ += ms; }
@@ -25,7 +28,8 @@ private:
     static constexpr size_t views_ = 4;
     double budget_, spent_ = 0;
     std::array<int, views_> waited_{}; ///< frames
-    std::array<bool, views_> asked_{}; ///< in this frame: a view that is not shown waits for nothing
+    std::array<bool, views_> asked_{}; ///< in this frame: a view that is not shown waits for
+                                       ///< nothing
     size_t turn_ = views_;             ///< none
 };
 
@@ -43,7 +47,8 @@ public:
         unsigned texture;
         bool old; ///< it shows another scene
     };
-    /// As Renderer::draw(), but the texture may show the view as it was some frames ago; then any_late() is true.
+    /// As Renderer::draw(), but the texture may show the view as it was some frames ago; then
+    /// any_late() is true.
     Drawn draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,
                const Look& look);
     /// A small picture, by number; one in a frame is drawn. 0: it is not there yet.

@@ -29,7 +29,8 @@ glm::dquat from_corner(double x, double y, double z)
 
 std::vector<Candidate> candidates()
 {
-    // Face on, a face looks 1.7 times as large as from a corner, and tells less of how the part lies in space.
+    // Face on, a face looks 1.7 times as large as from a corner, and tells less of how the part
+    // lies in space.
     constexpr double corner_above = 0.95, corner_below = 0.85, face_on = 0.5;
     std::vector<Candidate> list;
     for (const double z : {1., -1.})

@@ -39,8 +39,8 @@ const FlatShape& flat_shape(const ViewerState& state, const SceneCache::LiveBlan
     });
 }
 
-/// Corners as vertices of the part: those the user has set, else those of the grid; while corners are being chosen,
-/// those the grid would get. Nothing if there are none.
+/// Corners as vertices of the part: those the user has set, else those of the grid; while corners
+/// are being chosen, those the grid would get. Nothing if there are none.
 std::optional<std::array<int, 4>> corners(const ViewerState& state, SceneCache& cache)
 {
     const Session& session = state.document.session;
@@ -96,7 +96,8 @@ LineList outline_lines(const Eigen::Matrix3Xd& position, const Eigen::Matrix<uin
     return {lines};
 }
 
-/// The edges of the outline that cross, and the vertices that the sheet winds around more than once.
+/// The edges of the outline that cross, and the vertices that the sheet winds around more than
+/// once.
 OverlapShape overlap_shape(const Overlap& overlap, const Eigen::Matrix3Xd& position)
 {
     OverlapShape made;

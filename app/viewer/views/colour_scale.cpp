@@ -12,7 +12,8 @@ namespace spia::viewer {
 namespace {
 
 constexpr double round_steps[] = {1, 2, 2.5, 5};
-constexpr double rounding = 1e-9; // of a step: an end that is that near to a round value is that value
+constexpr double rounding = 1e-9; // of a step: an end that is that near to a round value is that
+                                  // value
 
 /// The smallest round length that is not below x > 0.
 double round_up(double x)
@@ -42,7 +43,8 @@ RoundRange round_range(double least, double greatest, int intervals, bool about_
     if (about_zero)
         greatest = std::max(std::abs(least), std::abs(greatest)), least = -greatest;
     double length = greatest - least;
-    if (!(length > 1e-12 * std::max(std::abs(least), std::abs(greatest)))) // a single value gets a range around it
+    // a single value gets a range around it
+    if (!(length > 1e-12 * std::max(std::abs(least), std::abs(greatest))))
         return about_zero || greatest == 0
                    ? RoundRange{about_zero ? -1. : 0., 1, intervals > 0 ? intervals : 4}
                    : round_range(least - std::abs(least) / 2, greatest + std::abs(least) / 2, intervals);
@@ -179,7 +181,8 @@ std::vector<LegendTick> legend_ticks(const SceneLegend& legend, int most)
     });
     const int middle = zero == values.end() ? -1 : int(zero - values.begin());
     std::vector<LegendTick> ticks;
-    for (int every = 1; every <= last + 1; ++every) { // the closest row with both ends and zero that there is room for
+    for (int every = 1; every <= last + 1; ++every) { // the closest row with both ends and zero
+                                                      // that there is room for
         ticks.clear();
         for (int k = 0; k <= last; ++k) {
             const bool end = k == 0 || k == last, in_row = (k - std::max(middle, 0)) % every == 0,

@@ -10,7 +10,8 @@
 
 namespace spia::viewer {
 
-/// A range with round ends, cut into intervals of one round length (1, 2, 2.5 or 5 times a power of ten) each.
+/// A range with round ends, cut into intervals of one round length (1, 2, 2.5 or 5 times a power of
+/// ten) each.
 struct RoundRange {
     double least = 0, greatest = 1;
     int intervals = 1;
@@ -21,25 +22,27 @@ struct RoundRange {
 /// @param about_zero  as far below 0 as above
 RoundRange round_range(double least, double greatest, int intervals = 0, bool about_zero = false);
 
-/// The values of a range that numbers are written at: round ones a round step (1, 2, 2.5 or 5 times a power of ten) apart, with 0 among
-/// them where the range has it.
+/// The values of a range that numbers are written at: round ones a round step (1, 2, 2.5 or 5 times
+/// a power of ten) apart, with 0 among them where the range has it.
 /// @param most  how many there is room for, 2 at least
 std::vector<double> axis_numbers(const RoundRange& range, int most);
 
-/// The shortest range that a field is coloured over, in its unit: values that differ by less are noise(), and colours would make a
-/// landscape of it.
+/// The shortest range that a field is coloured over, in its unit: values that differ by less are
+/// noise(), and colours would make a landscape of it.
 /// @param size of the part, mm
 double least_range(Field field, double size);
 
-/// How a field is coloured on the part: the range, map and bands the user asked for; else a round range around all
-/// values, symmetric about 0 where zero matters, and no shorter than least_range().
+/// How a field is coloured on the part: the range, map and bands the user asked for; else a round
+/// range around all values, symmetric about 0 where zero matters, and no shorter than
+/// least_range().
 /// @param extremes the field's least and greatest value
 /// @param size     of the part, mm
 /// @param shown    see ColourScale: the values that are written are round
 ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size = 0,
                         double shown = 1);
 
-/// What a legend says under its title where the values are nearer to each other than the least range; else empty.
+/// What a legend says under its title where the values are nearer to each other than the least
+/// range; else empty.
 std::string noise_note(const FieldDisplay& display, const std::array<double, 2>& extremes, double size,
                        double shown = 1);
 
@@ -63,7 +66,8 @@ std::vector<double> tick_values(const ColourScale& scale);
 bool below(const ColourScale& scale, double value);
 bool above(const ColourScale& scale, double value);
 
-/// A value for people: three significant digits at least, no exponent within 1e-4 to 1e6, its unit behind it.
+/// A value for people: three significant digits at least, no exponent within 1e-4 to 1e6, its unit
+/// behind it.
 /// @param lengths  what a unit with mm in it is shown in
 std::string value_text(double value, std::string_view unit, LengthUnit lengths = LengthUnit::mm);
 

@@ -20,8 +20,8 @@ const Eigen::Matrix3d lab_of_roots{{0.2104542553, 0.7936177850, -0.0040720468},
 
 double screen_of_linear(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
 
-// The diverging map: lightness falls evenly from the middle to both ends. The colours grow faster near the middle,
-// where the light hides them, and end as strong as a screen can show them.
+// The diverging map: lightness falls evenly from the middle to both ends. The colours grow faster
+// near the middle, where the light hides them, and end as strong as a screen can show them.
 constexpr double middle_lightness = 0.95, end_lightness = 0.46;
 constexpr Oklab blue_end{end_lightness, -0.028, -0.150}, orange_end{end_lightness, 0.080, 0.093};
 
@@ -84,7 +84,8 @@ Colour colour_of(const ColourScale& scale, float value)
     double t = scale.greatest > scale.least ? (value - scale.least) / (scale.greatest - scale.least) : 0.5;
     if (scale.bands > 0) {
         const double band = std::clamp(std::floor(t * scale.bands), 0.0, scale.bands - 1.0);
-        t = scale.bands > 1 ? band / (scale.bands - 1) : 0.5; // the outer bands have the colours of the scale's ends
+        // the outer bands have the colours of the scale's ends
+        t = scale.bands > 1 ? band / (scale.bands - 1) : 0.5;
     }
     const Eigen::Vector3f colour = map_colour(scale.map, place_in_map(scale, std::clamp(t, 0., 1.))).cast<float>();
     return {colour[0], colour[1], colour[2], 1};

@@ -10,7 +10,8 @@
 namespace spia::viewer {
 namespace {
 
-/// Two triangles per cell of those that `wanted` accepts, and their lines of the border as features.
+/// Two triangles per cell of those that `wanted` accepts, and their lines of the border as
+/// features.
 TriMesh some_cells(const QuadGrid& grid, const std::vector<int>& cells)
 {
     const TriMesh all = triangles_of(grid);

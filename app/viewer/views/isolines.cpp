@@ -8,7 +8,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A piece of a line within one face; its ends lie on edges of the mesh, known by their two vertices.
+/// A piece of a line within one face; its ends lie on edges of the mesh, known by their two
+/// vertices.
 struct Piece {
     std::array<uint64_t, 2> edge;
     std::array<Eigen::Vector3d, 2> end;
@@ -49,7 +50,8 @@ std::vector<std::vector<Piece>> pieces_of(const Eigen::Matrix3Xd& position, cons
     return pieces;
 }
 
-/// Ends on the same edge belong together. @return per end (2 * piece + 0 or 1) the other one; -1: the line ends here
+/// Ends on the same edge belong together. @return per end (2 * piece + 0 or 1) the other one; -1:
+/// the line ends here
 std::vector<int> partners(const std::vector<Piece>& pieces)
 {
     std::vector<std::pair<uint64_t, int>> ends;
@@ -93,7 +95,8 @@ void join(const std::vector<Piece>& pieces, double level, std::vector<Isoline>& 
             follow(end);
 }
 
-/// A line on the screen as far as it is in the view: pixels and depth, and the length up to each point.
+/// A line on the screen as far as it is in the view: pixels and depth, and the length up to each
+/// point.
 struct Run {
     double value;
     std::vector<glm::dvec3> point;
@@ -180,7 +183,8 @@ std::vector<IsolineLabel> isoline_labels(const std::vector<Isoline>& lines, cons
                                          const Hidden& hidden, const std::vector<PixelBox>& taken, double scale)
 {
     const double shortest = 80 * scale, spacing = 260 * scale, step = 14 * scale, apart = 90 * scale, air = 8 * scale;
-    constexpr int most_per_level = 5, looks = 8; // looks: how often it is asked whether a place is hidden
+    constexpr int most_per_level = 5, looks = 8; // looks: how often it is asked whether a place is
+                                                 // hidden
     std::vector<PixelBox> full = taken;
     std::vector<IsolineLabel> labels;
     struct OfLevel {

@@ -11,9 +11,9 @@
 
 namespace spia::viewer {
 
-/// The lines of some levels of a field that is linear in each face, joined across the faces: each runs until it meets
-/// the border of the mesh or itself. A level that a whole face has gives its rim. Faces with a value that is no number
-/// are left out.
+/// The lines of some levels of a field that is linear in each face, joined across the faces: each
+/// runs until it meets the border of the mesh or itself. A level that a whole face has gives its
+/// rim. Faces with a value that is no number are left out.
 /// @param position 3 by #V, mm; @param value one per vertex; @param level ascending
 std::vector<Isoline> isolines(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle,
                               const Eigen::VectorXd& value, const std::vector<double>& level);
@@ -27,8 +27,9 @@ struct IsolineLabel {
 /// Whether the sheet hides a place: pixels, and its depth as of pixel_of().
 using Hidden = std::function<bool(const glm::dvec3& place)>;
 
-/// Places for the values of isolines, as on a map: a few on each line, where it runs straight, in sight and well apart
-/// from each other. Long lines choose first. The same input gives the same places.
+/// Places for the values of isolines, as on a map: a few on each line, where it runs straight, in
+/// sight and well apart from each other. Long lines choose first. The same input gives the same
+/// places.
 /// @param size   of the view, pixels
 /// @param text   what is written for a value, and its size in pixels
 /// @param taken  what is there already

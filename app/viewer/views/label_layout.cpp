@@ -11,7 +11,8 @@ namespace {
 
 bool in_view(glm::dvec2 place, glm::dvec2 view)
 {
-    return place.x >= 0 && place.y >= 0 && place.x <= view.x && place.y <= view.y; // false where it is no number
+    // false where it is no number
+    return place.x >= 0 && place.y >= 0 && place.x <= view.x && place.y <= view.y;
 }
 
 /// The middles a label may have, the best first; those from `pushed` on need a line to their place.
@@ -63,7 +64,8 @@ bool meets_any(const PixelBox& box, const std::vector<PixelBox>& others)
 std::vector<PlacedLabel> place_labels(const std::vector<LabelWish>& wishes, glm::dvec2 view,
                                       const std::vector<PixelBox>& taken, double scale)
 {
-    constexpr double edge = 5; // pixels that stay free at the border of the view, for the outline of the letters too
+    constexpr double edge = 5; // pixels that stay free at the border of the view, for the outline
+                               // of the letters too
     std::vector<PixelBox> full = taken;
     for (const LabelWish& wish : wishes)
         if (wish.kind != LabelKind::region && in_view(wish.place, view))

@@ -4,7 +4,8 @@
 
 #include "app/viewer/model/document/scene.h"
 
-/// Where texts stand in a view, so that they do not cover each other. All in pixels, from its upper left corner.
+/// Where texts stand in a view, so that they do not cover each other. All in pixels, from its upper
+/// left corner.
 namespace spia::viewer {
 
 struct PixelBox {
@@ -32,9 +33,9 @@ struct PlacedLabel {
     bool pushed = false; ///< so far from its place that a line must lead there
 };
 
-/// Watched places choose first, then corners, then regions; among these the earlier wish. Beside its place, or in
-/// growing circles around it. Labels whose place is outside of the view, and those for which there is no room, are left
-/// out.
+/// Watched places choose first, then corners, then regions; among these the earlier wish. Beside
+/// its place, or in growing circles around it. Labels whose place is outside of the view, and those
+/// for which there is no room, are left out.
 /// @param taken  what no label may cover
 /// @param scale  of the screen
 /// @return in the order of the wishes

@@ -8,7 +8,8 @@ namespace spia::viewer {
 std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& selected,
                                             const std::vector<FaceRegion>& regions);
 
-/// The face under the mouse is to be drawn over the scene, which stays as it is: a fine mesh is not drawn again for it.
+/// The face under the mouse is to be drawn over the scene, which stays as it is: a fine mesh is not
+/// drawn again for it.
 /// @param position 3 by #V of the part, mm: on the part, flat or on the way
 void add_hovered(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd& position);
 
@@ -37,7 +38,8 @@ std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Ei
 Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,
                          const Eigen::Vector3d& barycentric);
 
-/// What stands at the least and the greatest value: "min 0.1", and of thinning and thickness "thinnest 0.620 mm (38.0 %)".
+/// What stands at the least and the greatest value: "min 0.1", and of thinning and thickness
+/// "thinnest 0.620 mm (38.0 %)".
 std::string extreme_words(const ViewerState& state, int face, double value, bool greatest);
 
 /// Dots and texts of the pinned probes and, if asked for, of the least and the greatest value.

@@ -3,7 +3,8 @@
 
 #include "app/viewer/model/document/scene.h"
 
-/// The colours of what is drawn on and around the sheet. Those of the sheet itself are in scene.h and colours.h.
+/// The colours of what is drawn on and around the sheet. Those of the sheet itself are in scene.h
+/// and colours.h.
 namespace spia::viewer::palette {
 
 inline constexpr Colour casing{0.04f, 0.05f, 0.07f, 0.85f}; ///< around light lines
@@ -16,12 +17,13 @@ inline constexpr Colour corner{0.98f, 0.98f, 0.98f, 1};
 inline constexpr Colour drawbead{0.98f, 0.55f, 0.12f, 1};
 inline constexpr Colour pilot{0.20f, 0.80f, 0.88f, 1};
 inline constexpr Colour folded{0.90f, 0.12f, 0.16f, 1};
-inline constexpr Colour fixed{0.97f, 0.78f, 0.10f, 1};      ///< faces that carry what a step moves
-inline constexpr Colour freed{0.20f, 0.72f, 0.32f, 1};      ///< faces that a step moves
-inline constexpr Colour chosen{0.26f, 0.55f, 0.96f, 1};     ///< what is read of a file
-inline constexpr Colour target{0.30f, 0.58f, 0.95f, 0.28f}; ///< the face in space onto which it moves them
-inline constexpr Colour reference{0.90f, 0.62f, 0.00f,
-                                  1}; ///< the outline of an earlier blank: orange, away from the fields' blue
+inline constexpr Colour fixed{0.97f, 0.78f, 0.10f, 1};  ///< faces that carry what a step moves
+inline constexpr Colour freed{0.20f, 0.72f, 0.32f, 1};  ///< faces that a step moves
+inline constexpr Colour chosen{0.26f, 0.55f, 0.96f, 1}; ///< what is read of a file
+/// the face in space onto which it moves them
+inline constexpr Colour target{0.30f, 0.58f, 0.95f, 0.28f};
+inline constexpr Colour reference{0.90f, 0.62f, 0.00f, 1}; ///< the outline of an earlier blank:
+                                                           ///< orange, away from the fields' blue
 inline constexpr Colour quads{0.80f, 0.83f, 0.86f, 1};
 inline constexpr Colour surface{0.60f, 0.72f, 0.84f, 1};
 /// Of patches: neighbours have different ones.
@@ -31,7 +33,8 @@ inline constexpr std::array<Colour, 6> patches{Colour{0.55f, 0.69f, 0.84f, 1}, C
 inline constexpr Colour ghost{0.62f, 0.66f, 0.72f, 0.22f};
 
 constexpr Colour text(bool dark) { return dark ? Colour{0.93f, 0.94f, 0.96f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }
-/// Lines of what is measured: against the ground of the theme, with a casing against the colours of the sheet.
+/// Lines of what is measured: against the ground of the theme, with a casing against the colours of
+/// the sheet.
 constexpr Colour measure(bool dark) { return dark ? Colour{0.98f, 0.98f, 0.98f, 1} : Colour{0.04f, 0.05f, 0.07f, 1}; }
 constexpr Colour measure_casing(bool dark) { return dark ? casing : Colour{1, 1, 1, 0.9f}; }
 constexpr Colour outline(bool dark) { return dark ? Colour{0.88f, 0.90f, 0.93f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }

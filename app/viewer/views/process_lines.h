@@ -5,7 +5,8 @@
 namespace spia::viewer {
 
 /// Places along each line on the part, close enough together to follow it.
-/// @return per line; empty for one that does not lie on the part as the solver wants it, see LineOnPart
+/// @return per line; empty for one that does not lie on the part as the solver wants it, see
+/// LineOnPart
 std::vector<std::vector<ClosestPoint>> places_of_lines(const TriMesh& part, const std::vector<ProcessLine>& lines);
 
 /// The lines and pins with their names and forces.

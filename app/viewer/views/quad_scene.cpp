@@ -89,7 +89,8 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
             lines->width = 1.6f;
             return LineList{lines};
         });
-        result.lines.insert(result.lines.begin(), boundary.begin(), boundary.end()); // under the sides
+        // under the sides
+        result.lines.insert(result.lines.begin(), boundary.begin(), boundary.end());
         result.box.extend(part.box);
     }
     Eigen::Matrix3Xd corner(3, 4);

@@ -14,8 +14,8 @@
 
 namespace spia::viewer {
 
-/// Remembers the last thing that was made and what of. Session results in the key are shared pointers: as long as the
-/// memo holds one, its address cannot become that of another result.
+/// Remembers the last thing that was made and what of. Session results in the key are shared
+/// pointers: as long as the memo holds one, its address cannot become that of another result.
 template <class Value, class... From> class Memo {
 public:
     /// @param make  from what the key says, if it is not the key of the last time
@@ -125,8 +125,8 @@ struct StepsCache {
     Memo<VertexShape, Mesh, std::vector<int>, bool> vertices;
 };
 
-/// What the scenes of a window have in common and what they are made of, so that nothing is made again in each frame.
-/// One per window.
+/// What the scenes of a window have in common and what they are made of, so that nothing is made
+/// again in each frame. One per window.
 struct SceneCache {
     using Part = std::shared_ptr<const PartFile>;
     using Blank = std::shared_ptr<const FlattenResult>;
@@ -148,7 +148,8 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
     Memo<std::vector<std::vector<ClosestPoint>>, Part, std::vector<ProcessLine>> line_places;
     Vertices vertices_on_part, vertices_on_blank;
-    std::array<Memo<StageShape, std::vector<std::shared_ptr<const Measured>>, bool>, 4> measurements; ///< by View
+    /// by View
+    std::array<Memo<StageShape, std::vector<std::shared_ptr<const Measured>>, bool>, 4> measurements;
     Memo<std::optional<std::array<int, 4>>, Part, std::array<int, 4>> chosen_corners;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;

@@ -16,7 +16,8 @@ namespace {
 
 using Edges = Eigen::Matrix<uint32_t, 2, Eigen::Dynamic>;
 
-/// One side of one face, sorted into the bucket of its smaller vertex. Corner 3 f + k is where side k of face f starts.
+/// One side of one face, sorted into the bucket of its smaller vertex. Corner 3 f + k is where side
+/// k of face f starts.
 struct Side {
     int high, corner;
 };
@@ -135,7 +136,8 @@ SceneMesh scene_mesh(const TriMesh& mesh)
             (uses.size() == 1 ? boundary : sharp).push_back(ends);
             return;
         }
-        // The corners of the two faces at each end of the edge; one face may run along it the other way.
+        // The corners of the two faces at each end of the edge; one face may run along it the other
+        // way.
         int a = uses[0].corner, b = next(a), c = uses[1].corner, d = next(c);
         if (start(mesh, a) != start(mesh, c))
             std::swap(c, d);

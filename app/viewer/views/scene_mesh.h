@@ -9,20 +9,22 @@ namespace spia::viewer {
 /// Edges with a larger angle between the normals of their faces are sharp.
 inline constexpr double sharp_angle = 30 * EIGEN_PI / 180;
 
-/// Rows of sharp edges that are shorter than this share of the diagonal are not drawn: on a coarse fillet they are no
-/// more than a few triangles that happen to meet at such an angle.
+/// Rows of sharp edges that are shorter than this share of the diagonal are not drawn: on a coarse
+/// fillet they are no more than a few triangles that happen to meet at such an angle.
 inline constexpr double shortest_feature = 0.06;
 
-/// A mesh as it is drawn. Its first vertices and all its faces are those of the mesh; along sharp edges vertices are
-/// repeated, one for each smooth side, so that the light shows the edge. Takes time in proportion to the number of
-/// triangles.
+/// A mesh as it is drawn. Its first vertices and all its faces are those of the mesh; along sharp
+/// edges vertices are repeated, one for each smooth side, so that the light shows the edge. Takes
+/// time in proportion to the number of triangles.
 SceneMesh scene_mesh(const TriMesh& mesh);
 
-/// The same triangles laid out in the plane z = 0, edges as in the scene mesh of the part. No vertex is repeated.
+/// The same triangles laid out in the plane z = 0, edges as in the scene mesh of the part. No
+/// vertex is repeated.
 /// @param part_scene  scene_mesh(part); @param position 2 by #V of the part, mm
 SceneMesh flat_scene_mesh(const TriMesh& part, const SceneMesh& part_scene, const Eigen::Matrix2Xd& position);
 
-/// The edges of a mesh that belong to one face only. 2 by #edges, vertex indices; the face lies on their left.
+/// The edges of a mesh that belong to one face only. 2 by #edges, vertex indices; the face lies on
+/// their left.
 Eigen::Matrix<uint32_t, 2, Eigen::Dynamic> boundary_edges(const TriMesh& mesh);
 
 /// A field for a scene mesh. @param values one per face, or per vertex of the mesh it was made from

@@ -22,16 +22,16 @@ struct SheetPlace {
     double mm_per_pixel = 1;          ///< of the view it is seen in
 };
 
-/// The sheet with all that is shown on it: field, isolines, regions, selection, the face under the mouse, principal
-/// strains, watched places. Its layer comes first, its lines and labels last.
+/// The sheet with all that is shown on it: field, isolines, regions, selection, the face under the
+/// mouse, principal strains, watched places. Its layer comes first, its lines and labels last.
 /// @param scene  with its box
 /// @param state  with a part
 void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, SheetCache& cache, SceneCache& shared);
 
 std::shared_ptr<const FaceMarks> marks_of(const ViewerState& state, SceneCache& cache);
 
-/// The selection and the face under the mouse as outlines on the part and the picked vertices, in front of everything: for views whose faces
-/// are not those of the part.
+/// The selection and the face under the mouse as outlines on the part and the picked vertices, in
+/// front of everything: for views whose faces are not those of the part.
 void add_part_outlines(Scene& scene, const ViewerState& state, SceneCache& cache);
 
 } // namespace spia::viewer

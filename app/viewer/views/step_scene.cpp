@@ -18,7 +18,8 @@
 namespace spia::viewer {
 namespace {
 
-/// The mesh of the part with its vertices at other places; edges, and which of them are sharp, stay those of the part.
+/// The mesh of the part with its vertices at other places; edges, and which of them are sharp, stay
+/// those of the part.
 SceneMesh moved(const SceneMesh& part, const Eigen::Matrix3Xd& position)
 {
     SceneMesh result = part;
@@ -106,7 +107,8 @@ TriMesh ended_patch(const TargetSurface& face, const TriMesh& before, const Plan
     return patch_around(face, before.position(Eigen::all, carrying), *step.extent_mm);
 }
 
-/// The face on which a step will lay its faces, as far as that is known before; null: it is fitted to a smooth one, or there is none.
+/// The face on which a step will lay its faces, as far as that is known before; null: it is fitted
+/// to a smooth one, or there is none.
 std::shared_ptr<const SceneMesh> target_to_be(const TriMesh& before, const PlannedStep& step)
 {
     if (!step.pick.target && step.kind != UnfoldKind::lay)

@@ -3,16 +3,19 @@
 
 namespace spia::viewer {
 
-/// Whether the view of the part shows it by its steps: one is chosen, or the part is unfolded by some.
+/// Whether the view of the part shows it by its steps: one is chosen, or the part is unfolded by
+/// some.
 bool shows_steps(const ViewerState& state);
 
-/// The part as far as the slider has unfolded it: of the chosen step the faces that carry yellow, those it moves green, its target
-/// (also before it is run) a translucent patch around where they come to lie; or the field of the state.
+/// The part as far as the slider has unfolded it: of the chosen step the faces that carry yellow,
+/// those it moves green, its target (also before it is run) a translucent patch around where they
+/// come to lie; or the field of the state.
 /// @param state  with a part
 Scene step_scene(const ViewerState& state, SceneCache& cache);
 
-/// A small picture of a step: the part after it, or if it is not run after the last one before that is; what carries it yellow, what
-/// it moves green, from where that is best seen before and after (best_turn()).
+/// A small picture of a step: the part after it, or if it is not run after the last one before that
+/// is; what carries it yellow, what it moves green, from where that is best seen before and after
+/// (best_turn()).
 struct StepPicture {
     std::shared_ptr<const PartFile> part; ///< with the next three: what it is of
     std::shared_ptr<const StepsRun> run;

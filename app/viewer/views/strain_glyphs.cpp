@@ -28,8 +28,8 @@ std::vector<int> spread_faces(const TriMesh& part, double spacing)
     return faces;
 }
 
-/// The direction in a triangle (columns: corners) that a direction in another one becomes, if the one is laid upon the
-/// other. Principal directions stay such.
+/// The direction in a triangle (columns: corners) that a direction in another one becomes, if the
+/// one is laid upon the other. Principal directions stay such.
 Eigen::Vector3d carried(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, const Eigen::Vector3d& direction)
 {
     const auto sides = [](const Eigen::Matrix3d& t) {

@@ -89,11 +89,13 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache, double pixels)
                            : "The NURBS surface needs the quad mesh on the part first.";
         return result;
     }
-    const SurfaceLook look = state.shape_dragged && has_scale(state.view.surface_look) ? SurfaceLook::plain // quick
-                                                                                       : state.view.surface_look;
+    // quick
+    const SurfaceLook look =
+        state.shape_dragged && has_scale(state.view.surface_look) ? SurfaceLook::plain : state.view.surface_look;
     const double tolerance = shown_tolerance(*made.surface);
     const LengthUnit lengths = state.preferences.lengths;
-    const bool is_now = made.surface == session.surface; // what there was before is shown as it was fitted
+    const bool is_now = made.surface == session.surface; // what there was before is shown as it was
+                                                         // fitted
     const SceneCache::Net net = cache.net.of({made.surface, is_now ? session.deformed : nullptr}, [&] {
         return std::make_shared<MultiPatch>(is_now ? surface_patches(session) : fitted_patches(*made.surface));
     });

@@ -80,11 +80,13 @@ std::shared_ptr<SceneMesh> drawn_mesh(const TriMesh& mesh, const Drawn& group)
     }
     for (size_t i = 0; i < result->repeated.size(); ++i)
         result->normal.col(at + Eigen::Index(i)) = result->normal.col(result->repeated[i]);
-    result->feature = boundary_edges(mesh); // a NURBS surface is smooth; what is sharp is only bent strongly
+    result->feature = boundary_edges(mesh); // a NURBS surface is smooth; what is sharp is only bent
+                                            // strongly
     return result;
 }
 
-/// As far to either side as the largest value, or as nearly all of them: a curvature has peaks that would hide the rest.
+/// As far to either side as the largest value, or as nearly all of them: a curvature has peaks that
+/// would hide the rest.
 double reach(const Eigen::VectorXd& value, double share)
 {
     std::vector<double> size;
@@ -170,7 +172,8 @@ std::vector<int> patch_colours(const MultiPatch& surface)
     }
     std::vector<int> colour(count, -1);
     for (size_t p = 0; p < count;
-         ++p) { // the first that is free; a side of a patch has one neighbour, so four are taken at most
+         ++p) { // the first that is free; a side of a patch has one neighbour, so four are taken at
+                // most
         std::array<bool, palette::patches.size()> taken{};
         for (const int q : beside[p])
             if (colour[size_t(q)] >= 0)
@@ -265,7 +268,8 @@ double control_net_spacing(const MultiPatch& surface)
 
 double control_net_strength(double pixels)
 {
-    constexpr double least = 5, full = 25; // of lines 1 pixel wide: they cover 2/5 of the surface, or 2/25
+    constexpr double least = 5, full = 25; // of lines 1 pixel wide: they cover 2/5 of the surface,
+                                           // or 2/25
     return std::round(8 * std::clamp((pixels - least) / (full - least), 0., 1.)) / 8;
 }
 

@@ -56,9 +56,11 @@ bool is_word(std::string_view word)
     if (std::find(names.begin(), names.end(), word) != names.end() || is_number(word))
         return true;
     if ((word.starts_with('i') || word.starts_with('e')) && is_count(word.substr(1)))
-        return true; // a shape internal or external to another one: written like the signs of +1 and -1
+        return true; // a shape internal or external to another one: written like the signs of +1
+                     // and -1
     for (const std::string_view continuity : continuities)
-        if (word.ends_with(continuity)) { // that of a seam stands at the number of its second curve: "2CN"
+        if (word.ends_with(continuity)) { // that of a seam stands at the number of its second
+                                          // curve: "2CN"
             const std::string_view before = word.substr(0, word.size() - continuity.size());
             return before.empty() || is_count(before);
         }

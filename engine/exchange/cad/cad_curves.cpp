@@ -13,8 +13,9 @@ namespace {
 Eigen::Vector3d vector(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 constexpr int samples = 9;
-/// Of its extent, that a spline may be off the line or circle it is: what arcs have that were written as rational splines, with some
-/// room for the decimals of a file. Others keep what their vertices say.
+/// Of its extent, that a spline may be off the line or circle it is: what arcs have that were
+/// written as rational splines, with some room for the decimals of a file. Others keep what their
+/// vertices say.
 constexpr double same = 1e-8;
 
 StatedCurve line_through(const Eigen::Matrix3Xd& points)

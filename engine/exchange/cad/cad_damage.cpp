@@ -86,7 +86,8 @@ bool needed(const Handle(Standard_Transient) & faulty, const XSControl_Reader& r
         return true;
     bool found = false;
     climb_to_holders(faulty, read, [&](const Handle(Standard_Transient) & holder) {
-        const bool context = holder->IsKind(STANDARD_TYPE(StepRepr_RepresentationContext)); // all shapes have one
+        // all shapes have one
+        const bool context = holder->IsKind(STANDARD_TYPE(StepRepr_RepresentationContext));
         found = found || (!context && (makes_shapes(*holder) || is_of_lengths(*holder)));
         return !found && !context;
     });

@@ -258,7 +258,8 @@ std::vector<int> bodies_taken(const CadContent& cad)
     return {bodies.begin(), bodies.end()};
 }
 
-/// Several solids are several parts; of a single one a skin was taken (take_skin()), or said why not.
+/// Several solids are several parts; of a single one a skin was taken (take_skin()), or said why
+/// not.
 void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Finding>& findings)
 {
     if (!cad.solid || part.doctor.components < 2)
@@ -282,7 +283,8 @@ void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Find
                         {}});
 }
 
-/// Pieces of a sheet are told by their CAD faces, which can be chosen; the doctor knows triangles only.
+/// Pieces of a sheet are told by their CAD faces, which can be chosen; the doctor knows triangles
+/// only.
 void name_pieces(const CadContent& cad, PartFile& part)
 {
     constexpr size_t most = 5; // pieces, in words

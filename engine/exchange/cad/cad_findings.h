@@ -4,7 +4,8 @@
 
 namespace spia {
 
-/// Adds what reading the CAD file found to the doctor's report, before what the doctor found in the triangles.
+/// Adds what reading the CAD file found to the doctor's report, before what the doctor found in the
+/// triangles.
 void report_cad(const CadContent& cad, PartFile& part);
 
 } // namespace spia

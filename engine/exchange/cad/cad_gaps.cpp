@@ -30,8 +30,8 @@ Polyline points_of(const TopoDS_Edge& edge)
     }
 }
 
-/// The pieces of many edges, to be found by their place. They are kept as triangles of no area: memory goes with their number alone,
-/// however long one of them is.
+/// The pieces of many edges, to be found by their place. They are kept as triangles of no area:
+/// memory goes with their number alone, however long one of them is.
 class Segments {
 public:
     explicit Segments(const std::vector<Polyline>& lines)

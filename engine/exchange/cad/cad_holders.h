@@ -8,8 +8,8 @@
 
 namespace spia {
 
-/// Goes from an entity of a file up to those that refer to it, to those that refer to these, and so on, each once. For .cpp files of
-/// engine/exchange that hold an OcctSession.
+/// Goes from an entity of a file up to those that refer to it, to those that refer to these, and so
+/// on, each once. For .cpp files of engine/exchange that hold an OcctSession.
 /// @param goes_on  goes_on(holder): whether to look for what refers to the holder, too
 template <class GoesOn>
 void climb_to_holders(const Handle(Standard_Transient) & entity, const XSControl_Reader& read, const GoesOn& goes_on)

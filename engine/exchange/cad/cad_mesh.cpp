@@ -38,7 +38,8 @@ void triangulate(const TopoDS_Compound& shape, double deflection, double angle, 
     const BRepMesh_IncrementalMesh mesh(shape, parameters, passed_on->Start());
 }
 
-/// Those of a face, and where it stands; none if a point is no number or a corner no point, as on damaged faces.
+/// Those of a face, and where it stands; none if a point is no number or a corner no point, as on
+/// damaged faces.
 Handle(Poly_Triangulation) sound_triangles(const TopoDS_Face& face, TopLoc_Location& place)
 {
     const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
@@ -56,7 +57,8 @@ Handle(Poly_Triangulation) sound_triangles(const TopoDS_Face& face, TopLoc_Locat
     return triangles;
 }
 
-/// Of an edge in the triangles of a face, numbered from 0; empty if there are none, or one is no point of the face.
+/// Of an edge in the triangles of a face, numbered from 0; empty if there are none, or one is no
+/// point of the face.
 std::vector<int> nodes_of(const Handle(Poly_PolygonOnTriangulation) & polygon, int nodes_of_face)
 {
     std::vector<int> nodes;
@@ -69,7 +71,8 @@ std::vector<int> nodes_of(const Handle(Poly_PolygonOnTriangulation) & polygon, i
     return nodes;
 }
 
-/// The points of all faces in a row, and which of them are one because an edge or a vertex of the shape is.
+/// The points of all faces in a row, and which of them are one because an edge or a vertex of the
+/// shape is.
 class SharedNodes {
 public:
     explicit SharedNodes(std::span<const TopoDS_Face> faces) : first_(faces.size() + 1, 0), same_(0)
@@ -83,7 +86,8 @@ public:
         for (size_t f = 0; f < faces.size(); ++f)
             join_along_edges(faces[f], first_[f]);
     }
-    int node(size_t face, int number) { return same_.root(first_[face] + number - 1); } ///< number: from 1
+    /// number: from 1
+    int node(size_t face, int number) { return same_.root(first_[face] + number - 1); }
     int nodes() const { return first_.back(); }
 
     /// Calls visit(edge, its nodes in their order) for every edge that has any.
@@ -135,7 +139,8 @@ private:
             return;
         }
         const std::vector<int>& known = on_edge_[number - 1];
-        if (known.size() == nodes.size()) // else the edge stays open, and the report counts its sides
+        if (known.size() == nodes.size()) // else the edge stays open, and the report counts its
+                                          // sides
             for (size_t k = 0; k < nodes.size(); ++k)
                 same_.join(known[k], nodes[k]);
     }

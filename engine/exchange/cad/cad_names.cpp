@@ -62,7 +62,8 @@ public:
                 ++tree_.item[size_t(item)].faces;
         return std::move(tree_);
     }
-    /// @param own  without the place in the assembly, @param name  by those around it that hold nothing else
+    /// @param own  without the place in the assembly, @param name by those around it that hold
+    /// nothing else
     void enter(const TopoDS_Shape& own, int parent, std::string name, std::string place)
     {
         if (name.empty())

@@ -75,7 +75,8 @@ std::vector<double> lengths_of(const EdgeFaces& edges)
     return lengths;
 }
 
-/// Half of what nearly all edges are longer than, mm: those that are much shorter than the others are slips, and do not count.
+/// Half of what nearly all edges are longer than, mm: those that are much shorter than the others
+/// are slips, and do not count.
 double half_an_edge(const std::vector<double>& lengths)
 {
     constexpr double slips = 0.05;
@@ -127,7 +128,8 @@ SewnFaces sewn(const SewnFaces& faces, double tolerance, const Progress& progres
     return result;
 }
 
-/// The widest place between two faces along their common edge: where their borders put it, each on its own surface.
+/// The widest place between two faces along their common edge: where their borders put it, each on
+/// its own surface.
 std::optional<CadGap> gap_along(const TopoDS_Edge& edge, const TopoDS_Face& a, const TopoDS_Face& b)
 {
     constexpr int samples = 9;
@@ -200,8 +202,9 @@ std::vector<int> sheets(const EdgeFaces& edges, size_t faces)
     return sheet;
 }
 
-/// 0: nothing is to be sewn. Where hardly a free edge is near another, the near ones may be the sides of a slit: then gaps are what parts one
-/// sheet from another, and what is no wider than a flaw.
+/// 0: nothing is to be sewn. Where hardly a free edge is near another, the near ones may be the
+/// sides of a slit: then gaps are what parts one sheet from another, and what is no wider than a
+/// flaw.
 double tolerance_from_gaps(const SewnFaces& whole, const EdgeFaces& edges, const Progress& progress)
 {
     constexpr double hardly_any = 0.05;
@@ -221,7 +224,8 @@ double tolerance_from_gaps(const SewnFaces& whole, const EdgeFaces& edges, const
     return tolerance_for(gaps, least, most);
 }
 
-/// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no sewing.
+/// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no
+/// sewing.
 SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optional<double> given,
                     const Progress& progress)
 {

@@ -86,7 +86,8 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
     if (const std::string fault = fault_of_brep(content); !fault.empty())
         refuse(fault);
     std::istringstream stream(content);
-    // Left to itself the kernel reads on where there is nothing any more, and some of its loops never end then.
+    // Left to itself the kernel reads on where there is nothing any more, and some of its loops
+    // never end then.
     stream.exceptions(std::ios::failbit | std::ios::badbit);
     const Handle(OcctProgress) passed_on = new OcctProgress(progress, "reading the CAD model");
     try {
@@ -104,7 +105,8 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
         list_faces(result);
     if (!result.face.empty())
         return;
-    // The kernel reads as far as it can and says nothing: a shape that is announced and not there was lost on the way.
+    // The kernel reads as far as it can and says nothing: a shape that is announced and not there
+    // was lost on the way.
     const size_t shapes = content.find("\nTShapes");
     if (shapes == std::string::npos)
         refuse(fmt::format(
@@ -160,7 +162,8 @@ CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progr
             result.format = "IGES";
             names = read_iges(path, result, progress);
         }
-    } catch (const std::length_error& error) { // OpenCASCADE makes lists as long as a damaged file says
+    } catch (const std::length_error& error) { // OpenCASCADE makes lists as long as a damaged file
+                                               // says
         refuse(fmt::format("OpenCASCADE gives up on it (\"{}\")", error.what()));
     }
     if (result.face.empty())

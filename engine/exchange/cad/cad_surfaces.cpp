@@ -21,7 +21,8 @@ StatedSurface stated(Handle(Geom_Surface) surface)
     if (surface.IsNull())
         return result;
     if (!surface->IsKind(STANDARD_TYPE(Geom_ElementarySurface))) {
-        constexpr double off = 1e-4; // mm, that a spline is off the plane or cylinder it was made from
+        constexpr double off = 1e-4; // mm, that a spline is off the plane or cylinder it was made
+                                     // from
         surface = ShapeCustom_Surface(surface).ConvertToAnalytical(off, false);
         if (surface.IsNull())
             return result;

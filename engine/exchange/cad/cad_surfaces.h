@@ -7,8 +7,9 @@
 
 namespace spia {
 
-/// Per face the plane or the cylinder that it lies on, mm. Splines and swept surfaces that are one (as IGES files have them) are found
-/// to be. For .cpp files of engine/exchange that hold an OcctSession.
+/// Per face the plane or the cylinder that it lies on, mm. Splines and swept surfaces that are one
+/// (as IGES files have them) are found to be. For .cpp files of engine/exchange that hold an
+/// OcctSession.
 std::vector<StatedSurface> stated_surfaces(std::span<const TopoDS_Face> faces);
 
 } // namespace spia

@@ -21,7 +21,8 @@
 namespace spia {
 namespace {
 
-constexpr double same_direction = 1e-9, same_point = 1e-7; // radians, mm: what OpenCASCADE takes for equal
+constexpr double same_direction = 1e-9, same_point = 1e-7; // radians, mm: what OpenCASCADE takes
+                                                           // for equal
 
 Handle(Geom_Curve) untrimmed(const Handle(Geom_Curve) & curve)
 {
@@ -29,7 +30,8 @@ Handle(Geom_Curve) untrimmed(const Handle(Geom_Curve) & curve)
     return trimmed.IsNull() ? curve : trimmed->BasisCurve();
 }
 
-/// A line about an axis in its plane: the angle is that of the cylinder or cone, the other parameter the way along the line.
+/// A line about an axis in its plane: the angle is that of the cylinder or cone, the other
+/// parameter the way along the line.
 Handle(Geom_Surface) elementary(const Geom_SurfaceOfRevolution& surface)
 {
     const auto basis = Handle(Geom_Line)::DownCast(untrimmed(surface.BasisCurve()));
@@ -125,7 +127,8 @@ std::vector<TopoDS_Face> without_swept_cylinders(std::span<const TopoDS_Face> fa
     if (std::none_of(faces.begin(), faces.end(),
                      [&](const TopoDS_Face& face) { return !elementary(face, place).IsNull(); }))
         return result;
-    BRepTools_Modifier modifier(compound_of(faces), new SweptToElementary); // all at once: common edges stay common
+    // all at once: common edges stay common
+    BRepTools_Modifier modifier(compound_of(faces), new SweptToElementary);
     for (TopoDS_Face& face : result)
         face = TopoDS::Face(modifier.ModifiedShape(face));
     return result;

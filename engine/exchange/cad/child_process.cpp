@@ -45,17 +45,20 @@ void limit(int resource, rlim_t most)
 void bound_this_process(std::chrono::seconds busy)
 {
     long pages = 0;
-    std::ifstream("/proc/self/statm") >> pages; // in use already: with a sanitizer that is terabytes
+    std::ifstream("/proc/self/statm") >> pages; // in use already: with a sanitizer that is
+                                                // terabytes
     limit(RLIMIT_AS, rlim_t(pages) * rlim_t(::sysconf(_SC_PAGESIZE)) + (rlim_t(16) << 30));
     const auto most = rlim_t(busy.count());
-    const rlimit cpu{most, most + 10}; // the kernel tells of the first; of the second it kills without a word
+    const rlimit cpu{most, most + 10}; // the kernel tells of the first; of the second it kills
+                                       // without a word
     ::setrlimit(RLIMIT_CPU, &cpu);
     limit(RLIMIT_CORE, 0);
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDOUT_FILENO);
 }
 
-/// The kernel ends this process with the thread that started it: that one waits for the result, and without it nobody does.
+/// The kernel ends this process with the thread that started it: that one waits for the result, and
+/// without it nobody does.
 void end_with(pid_t parent)
 {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -118,7 +121,8 @@ private:
     int pipe_;
 };
 
-/// How long a child has not computed, counted by our own looks: while this process stood still too, there were none.
+/// How long a child has not computed, counted by our own looks: while this process stood still too,
+/// there were none.
 class Watchdog {
 public:
     Watchdog(const Child& child, std::chrono::milliseconds between_looks, std::chrono::milliseconds most)

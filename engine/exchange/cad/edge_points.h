@@ -5,7 +5,8 @@
 
 namespace spia {
 
-/// An edge as so many straight pieces, even in its parameter: pieces + 1 points, mm. For .cpp files of engine/exchange that hold an OcctSession.
+/// An edge as so many straight pieces, even in its parameter: pieces + 1 points, mm. For .cpp files
+/// of engine/exchange that hold an OcctSession.
 /// @throws Standard_Failure  the edge has no curve
 std::vector<Eigen::Vector3d> points_along(const TopoDS_Edge& edge, int pieces);
 

@@ -69,7 +69,8 @@ CurveFitResult in_space(const NurbsSurface& surface, const PlaneCurve& curve)
             return points;
         },
         options);
-    const double as_the_border = TrimOptions{}.tolerance; // of the vertices of the hole, on a surface with a kink there
+    const double as_the_border = TrimOptions{}.tolerance; // of the vertices of the hole, on a
+                                                          // surface with a kink there
     if (!fitted.reached && !(fitted.largest <= as_the_border)) {
         const Eigen::Vector2d uv = evaluate(curve, 0);
         const Eigen::Vector3d place = evaluate(surface, uv.x(), uv.y()).position;

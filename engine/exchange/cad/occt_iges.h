@@ -9,8 +9,10 @@
 
 namespace spia {
 
-/// The text of an IGES file of some entities, with a header that names this program. For .cpp files of engine/exchange.
-/// @param entities makes them, their numbers in the unit of the file: OpenCASCADE scales shapes, not entities; called while an
+/// The text of an IGES file of some entities, with a header that names this program. For .cpp files
+/// of engine/exchange.
+/// @param entities makes them, their numbers in the unit of the file: OpenCASCADE scales shapes,
+/// not entities; called while an
 ///                 OcctSession is held
 /// @param largest_mm coordinate
 /// @throws ExchangeError if OpenCASCADE refuses

@@ -7,8 +7,8 @@
 
 namespace spia {
 
-/// Tells how far OpenCASCADE is. Nothing is stopped here: who wants no more ends the process in which it works (in_child()). For .cpp
-/// files of engine/exchange.
+/// Tells how far OpenCASCADE is. Nothing is stopped here: who wants no more ends the process in
+/// which it works (in_child()). For .cpp files of engine/exchange.
 class OcctProgress : public Message_ProgressIndicator {
 public:
     OcctProgress(Progress progress, std::string step) : progress_(std::move(progress)), step_(std::move(step)) {}

@@ -59,8 +59,8 @@ void fill_header(const Handle(StepData_StepModel) & model, const std::string& fi
         }
 }
 
-/// Names beyond ASCII as ISO 10303-21 wants them, e.g. \X2\00FC\X0\ for a u umlaut; OpenCASCADE passes UTF-8
-/// through.
+/// Names beyond ASCII as ISO 10303-21 wants them, e.g. \X2\00FC\X0\ for a u umlaut; OpenCASCADE
+/// passes UTF-8 through.
 std::string with_encoded_names(const std::string& utf8)
 {
     std::string result;

@@ -90,7 +90,8 @@ void scale(CadShape& shape, LengthUnit unit)
                         shape.format, shape.unit));
     gp_Trsf scaling;
     scaling.SetScaleFactor(millimetres(unit));
-    BRepBuilderAPI_Transform transform(shape.shape, scaling, true); // the whole, for faces to keep common edges
+    // the whole, for faces to keep common edges
+    BRepBuilderAPI_Transform transform(shape.shape, scaling, true);
     for (TopoDS_Face& face : shape.face)
         face = TopoDS::Face(transform.ModifiedShape(face));
 }

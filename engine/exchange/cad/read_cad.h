@@ -36,53 +36,65 @@ struct CadSliver {
 struct CadContent {
     PolygonSoup soup;      ///< triangles, mm; neighbours share the vertices of their common edge
     std::vector<int> face; ///< per triangle the face it lies on
-    std::vector<std::array<Eigen::Vector3f, 3>> normal; ///< per triangle at its corners, as mesh_faces() has it
+    std::vector<std::array<Eigen::Vector3f, 3>> normal; ///< per triangle at its corners, as
+                                                        ///< mesh_faces() has it
     int faces = 0;                                      ///< of the file
     int taken = 0;                                      ///< of them
     CadTree tree;                                       ///< what the file holds
     bool solid = false;                                 ///< some of the faces taken are of a solid
     std::string format;                                 ///< e.g. "STEP"
-    std::string unit;            ///< of the file, e.g. "INCH"; lengths here are mm; empty: the format has none (BREP)
-    double deflection = 0;       ///< mm, largest distance between triangle and face that was asked for
-    double sewing_tolerance = 0; ///< mm; 0: the faces were taken as they are
-    double half_an_edge = 0;     ///< mm: what nearly all edges are twice as long as; gaps are closed unasked up to it
-    double shortest_edge = 0;    ///< mm
-    int free_before = 0;         ///< edges of one face only, before sewing
-    int free_after = 0;          ///< and after it
-    std::vector<CadGap> gaps;    ///< at edges that two faces share now, the widest first
-    std::vector<std::string>
-        lost; ///< labels of faces and bodies of the file that could not be made, and may be missing; without numbers
+    std::string unit;                                   ///< of the file, e.g. "INCH"; lengths here
+                                                        ///< are mm; empty: the format has none
+                                                        ///< (BREP)
+    double deflection = 0;         ///< mm, largest distance between triangle and face that was
+                                   ///< asked for
+    double sewing_tolerance = 0;   ///< mm; 0: the faces were taken as they are
+    double half_an_edge = 0;       ///< mm: what nearly all edges are twice as long as; gaps are
+                                   ///< closed unasked up to it
+    double shortest_edge = 0;      ///< mm
+    int free_before = 0;           ///< edges of one face only, before sewing
+    int free_after = 0;            ///< and after it
+    std::vector<CadGap> gaps;      ///< at edges that two faces share now, the widest first
+    std::vector<std::string> lost; ///< labels of faces and bodies of the file that could not be
+                                   ///< made, and may be missing; without numbers
     std::vector<std::string> lost_elsewhere; ///< those of other bodies than were chosen
     std::vector<std::string> aside;          ///< labels of damaged entities that no shape needs
     std::vector<int> unmeshed;               ///< faces without triangles, but for slivers
     std::vector<CadSliver> slivers;          ///< that were closed
     bool unmeshed_left_out = false;          ///< as was asked for
-    std::vector<std::array<int, 2>> doubled; ///< faces that were left out, each with the one on which it lies
-    std::vector<StatedSurface> surface;      ///< per face of the file: what it lies on; of faces not taken another kind
-    StatedCurves curves;                     ///< lines and circles of the edges of what was taken; vertices of the soup
-    std::vector<int> overlapping; ///< faces at edges of three or more triangles, once points at one place are one
+    std::vector<std::array<int, 2>> doubled; ///< faces that were left out, each with the one on
+                                             ///< which it lies
+    std::vector<StatedSurface> surface;      ///< per face of the file: what it lies on; of faces
+                                             ///< not taken another kind
+    StatedCurves curves;                     ///< lines and circles of the edges of what was taken;
+                                             ///< vertices of the soup
+    std::vector<int> overlapping;            ///< faces at edges of three or more triangles, once
+                                             ///< points at one place are one
 };
 
 /// Whether the ending (lower case, with its dot) is .step, .stp, .iges, .igs or .brep.
 bool is_cad(std::string_view extension);
 
-/// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one file at a time. That is done in a
-/// process of its own (in_child()), for OpenCASCADE crashes and hangs on some damaged files.
+/// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one
+/// file at a time. That is done in a process of its own (in_child()), for OpenCASCADE crashes and
+/// hangs on some damaged files.
 /// @param wanted  faces to take, as chosen_faces() has it; empty: all
 /// @param unit  of a BREP file (not given: mm); the others have their unit, and it is obeyed
-/// @throws InputError  the file is damaged or holds no face, a face wanted does not exist, an option makes no sense, a
+/// @throws InputError the file is damaged or holds no face, a face wanted does not exist, an option
+/// makes no sense, a
 ///         unit is given and the file has its own
 CadContent read_cad(const std::filesystem::path& path, const CadOptions& options = {},
                     std::span<const std::string> wanted = {}, std::optional<LengthUnit> unit = {},
                     const Progress& progress = {});
 
-/// As read_cad() does, with its defaults, but in this process: damage that makes OpenCASCADE crash or hang does so here. For a search
-/// through many files, within a child process for all of them (tests/fuzz).
+/// As read_cad() does, with its defaults, but in this process: damage that makes OpenCASCADE crash
+/// or hang does so here. For a search through many files, within a child process for all of them
+/// (tests/fuzz).
 /// @throws InputError  the file is damaged or holds no face
 CadContent read_cad_unguarded(const std::filesystem::path& path);
 
-/// The faces of such a file as they are, neither healed nor sewn, in triangles that are coarse: enough to show what there is. It has soup,
-/// face, faces, tree, format and unit.
+/// The faces of such a file as they are, neither healed nor sewn, in triangles that are coarse:
+/// enough to show what there is. It has soup, face, faces, tree, format and unit.
 /// @throws InputError  the file is damaged or holds no face
 CadContent preview_cad(const std::filesystem::path& path, const Progress& progress = {});
 

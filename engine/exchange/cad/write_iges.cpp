@@ -21,8 +21,8 @@ Handle(TColStd_HArray1OfReal) knots_from_minus_degree(const std::vector<double>&
     return result;
 }
 
-/// Filled field by field, not through a kernel surface: that way nothing between us and the file can touch a
-/// number.
+/// Filled field by field, not through a kernel surface: that way nothing between us and the file
+/// can touch a number.
 Handle(IGESGeom_BSplineSurface) entity_128(const NurbsSurface& surface, LengthUnit unit)
 {
     const int last_u = surface.count_u - 1, last_v = surface.count_v - 1;

@@ -44,9 +44,9 @@ bool AbaqusElements::is_other(std::int64_t id)
     return std::binary_search(others_.begin(), others_.end(), id);
 }
 
-/// How many there are, with the first; what is added to the nodes, and to the element, from one to the next. Without
-/// the numbers there is one. The increments of a row in itself are 1 if they are not given; those from row to row and
-/// from layer to layer have to be.
+/// How many there are, with the first; what is added to the nodes, and to the element, from one to
+/// the next. Without the numbers there is one. The increments of a row in itself are 1 if they are
+/// not given; those from row to row and from layer to layer have to be.
 AbaqusElements::Row AbaqusElements::row(const DeckFields& fields, size_t first) const
 {
     Row row;
@@ -73,7 +73,8 @@ void AbaqusElements::generate(const DeckFields& fields)
             lines_.fail(fmt::format("*ELGEN: element {} is not there", master));
         return deck_.count_other_elements("*ELGEN lines");
     }
-    constexpr std::uint64_t enough = 1'000'000'000; // to be refused; a third factor would not fit into a number
+    constexpr std::uint64_t enough = 1'000'000'000; // to be refused; a third factor would not fit
+                                                    // into a number
     std::uint64_t count = std::uint64_t(rows[0].count) * std::uint64_t(rows[1].count);
     count = std::min(count, enough) * std::uint64_t(rows[2].count);
     deck_.require_room(lines_, "*ELGEN", count - 1);

@@ -14,8 +14,8 @@
 
 namespace spia {
 
-/// The shells of an Abaqus deck by their numbers and sets, and those that *ELGEN and *ELCOPY make of others. [Abaqus
-/// Keywords Reference; Abaqus Analysis User's Guide, "Element definition"]
+/// The shells of an Abaqus deck by their numbers and sets, and those that *ELGEN and *ELCOPY make
+/// of others. [Abaqus Keywords Reference; Abaqus Analysis User's Guide, "Element definition"]
 class AbaqusElements {
 public:
     AbaqusElements(DeckLines& lines, DeckBuilder& deck) : lines_(lines), deck_(deck) {}
@@ -37,7 +37,8 @@ public:
 private:
     /// One of the three directions in which *ELGEN repeats elements.
     struct Row {
-        std::int64_t count = 1, nodes = 1, elements = 1; ///< and the increments from one to the next
+        std::int64_t count = 1, nodes = 1, elements = 1; ///< and the increments from one to the
+                                                         ///< next
     };
     Row row(const DeckFields& fields, size_t first) const;
     void add_shifted(size_t shell, std::int64_t element, std::int64_t nodes, bool turned, std::string_view set);

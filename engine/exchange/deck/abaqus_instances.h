@@ -13,19 +13,21 @@
 
 namespace spia {
 
-/// The parts of an Abaqus deck and their instances in the assembly, each at its place. [Abaqus Analysis User's Guide,
-/// "Assembly definition"]
+/// The parts of an Abaqus deck and their instances in the assembly, each at its place. [Abaqus
+/// Analysis User's Guide, "Assembly definition"]
 class AbaqusInstances {
 public:
     AbaqusInstances(DeckLines& lines, DeckBuilder& deck) : lines_(lines), deck_(deck) {}
 
     void begin_part(std::string_view name) { part_ = upper_case(name); }
     void begin_instance(const AbaqusKeyword& keyword);
-    void placement(const DeckFields& fields) { instance_->shift.take(lines_, fields); } ///< a line of the instance
+    /// a line of the instance
+    void placement(const DeckFields& fields) { instance_->shift.take(lines_, fields); }
     /// Of the part or instance that is open, if there is one.
     /// @param first_set  of its sets; those behind are its own as well
     void end_scope(const DeckRange& scope, size_t first_set);
-    /// Moves every part to its first instance and copies it for the others; parts without any are left out.
+    /// Moves every part to its first instance and copies it for the others; parts without any are
+    /// left out.
     void place_all();
 
 private:

@@ -11,7 +11,8 @@
 namespace spia {
 namespace {
 
-constexpr std::int64_t greatest_number = 999'999'999; ///< of nodes and elements [Abaqus Analysis User's Guide]
+constexpr std::int64_t greatest_number = 999'999'999; ///< of nodes and elements [Abaqus Analysis
+                                                      ///< User's Guide]
 constexpr double radians = std::numbers::pi / 180;
 
 } // namespace
@@ -34,7 +35,8 @@ std::int64_t shifted_number(const DeckLines& lines, std::int64_t number, std::in
 
 // ---- moves ----
 
-/// A line of more than three numbers is that of the turn: where there is no translation its line is left blank.
+/// A line of more than three numbers is that of the turn: where there is no translation its line is
+/// left blank.
 void AbaqusShift::take(const DeckLines& lines, const DeckFields& fields)
 {
     const auto vector = [&](size_t first) {
@@ -161,9 +163,9 @@ Eigen::Vector3d AbaqusNodes::point(const DeckFields& fields, size_t first) const
     return x;
 }
 
-/// Radius, degrees, height; or radius, degrees about the third axis, degrees towards it: the directions of Abaqus are
-/// radial, circumferential and meridional, in this order right-handed [Abaqus Analysis User's Guide, "Transformed
-/// coordinate systems"].
+/// Radius, degrees, height; or radius, degrees about the third axis, degrees towards it: the
+/// directions of Abaqus are radial, circumferential and meridional, in this order right-handed
+/// [Abaqus Analysis User's Guide, "Transformed coordinate systems"].
 Eigen::Vector3d AbaqusNodes::rectangular(Kind kind, const Eigen::Vector3d& x)
 {
     if (kind == Kind::rectangular)
@@ -175,9 +177,9 @@ Eigen::Vector3d AbaqusNodes::rectangular(Kind kind, const Eigen::Vector3d& x)
     return {x.x() * std::cos(up) * std::cos(angle), x.x() * std::cos(up) * std::sin(angle), x.x() * std::sin(up)};
 }
 
-/// Points of that of the nodes that follow: its origin, a point on its first axis and one in the plane of the first and
-/// second; without the last its third axis stays that of the space, without both all do [Abaqus Keywords Reference,
-/// *SYSTEM].
+/// Points of that of the nodes that follow: its origin, a point on its first axis and one in the
+/// plane of the first and second; without the last its third axis stays that of the space, without
+/// both all do [Abaqus Keywords Reference, *SYSTEM].
 void AbaqusNodes::system(const DeckFields& fields)
 {
     system_points_.push_back(point(fields, 0));
@@ -270,7 +272,8 @@ void AbaqusNodes::put(std::int64_t node, const Eigen::Vector3d& x)
     deck_.put_node(node, x);
 }
 
-/// Two ends, the increment of the numbers; of an arc its centre, as a node or by coordinates, and its normal.
+/// Two ends, the increment of the numbers; of an arc its centre, as a node or by coordinates, and
+/// its normal.
 void AbaqusNodes::generate(const DeckFields& fields)
 {
     const std::int64_t first = abaqus_number(lines_, fields[0]), last = abaqus_number(lines_, fields[1]);
@@ -351,7 +354,8 @@ void AbaqusNodes::begin_fill(const AbaqusKeyword& keyword)
     card_ = &AbaqusNodes::fill;
 }
 
-/// Nothing, and a doubt, if they are not known. @throws InputError if there is no such set, or nothing in it
+/// Nothing, and a doubt, if they are not known. @throws InputError if there is no such set, or
+/// nothing in it
 std::optional<NodeSets::Members> AbaqusNodes::members(std::string_view keyword, std::string_view set)
 {
     if (!sets_.has(set))
@@ -366,8 +370,8 @@ std::optional<NodeSets::Members> AbaqusNodes::members(std::string_view keyword, 
     return found;
 }
 
-/// Where the nodes inside a line stand, as parts of it. Each interval is BIAS times the next one; in two steps each pair
-/// of equal ones is.
+/// Where the nodes inside a line stand, as parts of it. Each interval is BIAS times the next one;
+/// in two steps each pair of equal ones is.
 std::vector<double> AbaqusNodes::parts_of_lines(std::int64_t intervals) const
 {
     if (fill_.bias == 1) {
@@ -412,7 +416,8 @@ void AbaqusNodes::fill(const DeckFields& fields)
     const size_t count = std::min(one->ids.size(), other->ids.size());
     deck_.require_room(lines_, "*NFILL", std::uint64_t(count) * std::uint64_t(intervals - 1));
     const std::vector<double> parts = parts_of_lines(intervals);
-    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> ends; // of all first: numbers may be taken anew
+    // of all first: numbers may be taken anew
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> ends;
     for (size_t line = 0; line < count; ++line)
         ends.emplace_back(place_of(one->ids[line]), place_of(other->ids[line]));
     for (size_t line = 0; line < count; ++line)
@@ -489,7 +494,8 @@ Eigen::Affine3d AbaqusNodes::move_of_copy() const
     const Eigen::Vector3d a = copy.points[0];
     Eigen::Affine3d move = Eigen::Affine3d::Identity();
     if (copy.how == Copy::How::pole || copy.how == Copy::How::point) {
-        move.linear() *= copy.how == Copy::How::pole ? 2 : -1; // the old node is in the middle; the point is
+        // the old node is in the middle; the point is
+        move.linear() *= copy.how == Copy::How::pole ? 2 : -1;
         move.translation() = copy.how == Copy::How::pole ? Eigen::Vector3d(-a) : Eigen::Vector3d(2 * a);
         return move;
     }
@@ -514,7 +520,8 @@ void AbaqusNodes::make_copy()
         deck_.require_room(lines_, "*NCOPY", old->ids.size());
         if (!copy_->new_set.empty())
             sets_.open(copy_->new_set, sets_.is_unsorted(copy_->set));
-        std::vector<Eigen::Vector3d> places; // of all first: a copy may take the number of an original
+        std::vector<Eigen::Vector3d> places; // of all first: a copy may take the number of an
+                                             // original
         for (const std::int64_t id : old->ids)
             places.push_back(move * place_of(id));
         for (size_t k = 0; k < places.size(); ++k) {

@@ -21,8 +21,8 @@ std::int64_t abaqus_number(const DeckLines& lines, std::string_view field);
 /// @throws InputError with the line, if the sum is no number of a node or an element
 std::int64_t shifted_number(const DeckLines& lines, std::int64_t number, std::int64_t by);
 
-/// A translation, then a turn in degrees about the axis from one point to another, as the lines of *NCOPY, SHIFT and of
-/// *INSTANCE give them: three numbers, and seven.
+/// A translation, then a turn in degrees about the axis from one point to another, as the lines of
+/// *NCOPY, SHIFT and of *INSTANCE give them: three numbers, and seven.
 struct AbaqusShift {
     Eigen::Vector3d by = Eigen::Vector3d::Zero();
     Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
@@ -33,13 +33,15 @@ struct AbaqusShift {
     Eigen::Affine3d move(const DeckLines& lines, double times = 1) const;
 };
 
-/// The nodes of an Abaqus deck: *NODE in its coordinates and in those of *SYSTEM, the nodes that *NGEN, *NFILL and
-/// *NCOPY make of others, and *NSET. [Abaqus Keywords Reference; Abaqus Analysis User's Guide, "Node definition"]
+/// The nodes of an Abaqus deck: *NODE in its coordinates and in those of *SYSTEM, the nodes that
+/// *NGEN, *NFILL and *NCOPY make of others, and *NSET. [Abaqus Keywords Reference; Abaqus Analysis
+/// User's Guide, "Node definition"]
 class AbaqusNodes {
 public:
     AbaqusNodes(DeckLines& lines, DeckBuilder& deck) : lines_(lines), deck_(deck), sets_(lines) {}
 
-    bool begin(const AbaqusKeyword& keyword); ///< whether the block is read here: its lines go to card(), then end()
+    bool begin(const AbaqusKeyword& keyword); ///< whether the block is read here: its lines go to
+                                              ///< card(), then end()
     void card(const DeckFields& fields) { (this->*card_)(fields); }
     void end();
     void close_scope(); ///< forgets sets and system

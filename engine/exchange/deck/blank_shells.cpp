@@ -58,7 +58,8 @@ private:
         return node_.try_emplace({file_vertex, vertex}, int(node_.size())).first->second;
     }
 
-    /// In the order of the file. Of the places of one node the first has its id, the others are copies.
+    /// In the order of the file. Of the places of one node the first has its id, the others are
+    /// copies.
     void number_nodes(const Blank& blank)
     {
         ShellMesh& mesh = blank_.mesh;

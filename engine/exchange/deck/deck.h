@@ -27,11 +27,14 @@ struct Deck {
     std::vector<std::array<int, 4>> corner; ///< #E, indices of nodes; the last is -1 in a triangle
     std::vector<std::int64_t> element;      ///< #E ids
     std::vector<int> part_of;               ///< #E, index into parts
-    std::vector<double> thickness = {};     ///< #E, mean of the element's own at its corners, 0: it has none; or empty
-    std::vector<DeckPart> parts;            ///< also those without shells; in the order in which they are first named
+    std::vector<double> thickness = {};     ///< #E, mean of the element's own at its corners, 0: it
+                                            ///< has none; or empty
+    std::vector<DeckPart> parts;            ///< also those without shells; in the order in which
+                                            ///< they are first named
     std::vector<DeckSet> sets;
-    std::vector<std::string> notes; ///< what was passed over, left out, or deserves a word
-    bool copies = false; ///< some shells are moved copies: nodes of edges that they share with others are apart
+    std::vector<std::string> notes;       ///< what was passed over, left out, or deserves a word
+    bool copies = false;                  ///< some shells are moved copies: nodes of edges that
+                                          ///< they share with others are apart
     std::vector<std::string> doubts = {}; ///< those of the notes after which shells may be missing
 
     int elements() const { return int(corner.size()); }

@@ -257,7 +257,8 @@ void DeckBuilder::count(std::map<std::string, int, std::less<>>& counts, std::st
 
 void DeckBuilder::drop_absurd_thicknesses()
 {
-    constexpr double thickest = 1e5; // in any unit; beyond it a cube or a mean of it is no number any more
+    constexpr double thickest = 1e5; // in any unit; beyond it a cube or a mean of it is no number
+                                     // any more
     const auto makes_sense = [](double t) { return t == 0 || (t > 0 && t <= thickest); };
     int reported = 0;
     for (DeckPart& part : deck_.parts) {
@@ -302,7 +303,8 @@ void DeckBuilder::thickness_from_elements()
             continue;
         if (low == high)
             part.thickness = low;
-        else if (low > 0) { // the sheet that is solved has one; a card of an element goes before that of its section
+        else if (low > 0) { // the sheet that is solved has one; a card of an element goes before
+                            // that of its section
             part.thickness = sum / shells;
             if (reported++ < 20)
                 note(fmt::format(

@@ -37,7 +37,8 @@ private:
     size_t known_ = 0;
 };
 
-/// Nodes and shells of a builder that belong together, by their numbers as they were added; the ends are not in it.
+/// Nodes and shells of a builder that belong together, by their numbers as they were added; the
+/// ends are not in it.
 struct DeckRange {
     size_t first_node = 0, end_node = 0, first_shell = 0, end_shell = 0;
     size_t nodes() const { return end_node - first_node; }
@@ -53,11 +54,12 @@ public:
     /// The place of a node of the scope that is open, which is added if there is none of this id.
     void put_node(std::int64_t id, const Eigen::Vector3d& position);
 
-    /// Most nodes and shells that keywords may make of others. Decks with such keywords are written by hand: some 100,000
-    /// are many. Copies of whole parts may be more.
+    /// Most nodes and shells that keywords may make of others. Decks with such keywords are written
+    /// by hand: some 100,000 are many. Copies of whole parts may be more.
     static constexpr std::uint64_t most_made = 1'000'000, most_copied = 10'000'000;
 
-    /// To call before a keyword makes nodes or shells of others: few words of a file could ask for any number of them.
+    /// To call before a keyword makes nodes or shells of others: few words of a file could ask for
+    /// any number of them.
     /// @throws InputError with the line, if it and those before make more than this
     void require_room(const DeckLines& lines, std::string_view keyword, std::uint64_t count,
                       std::uint64_t most = most_made);
@@ -70,7 +72,8 @@ public:
     std::span<const std::int64_t> scope_node_ids() const { return std::span(deck_.node).subspan(first_node_); }
     std::optional<size_t> number_of_node(std::int64_t id); ///< of the scope that is open
     std::optional<Eigen::Vector3d> node(std::int64_t id);  ///< of the scope that is open
-    std::vector<std::int64_t> nodes_of(int part) const;    ///< sorted ids, of the scope that is open
+    std::vector<std::int64_t> nodes_of(int part) const;    ///< sorted ids, of the scope that is
+                                                           ///< open
 
     /// @param part       number of a part
     /// @param corners    ids of three or four nodes; a fourth that is 0 or repeats the third makes a triangle
@@ -82,14 +85,18 @@ public:
     DeckPart& at(int part) { return deck_.parts[size_t(part)]; }
     int parts() const { return int(deck_.parts.size()); }
 
-    /// Shells so far look for their nodes among the nodes so far, and what follows has ids of its own (Abaqus: *PART).
+    /// Shells so far look for their nodes among the nodes so far, and what follows has ids of its
+    /// own (Abaqus: *PART).
     void close_scope();
-    DeckRange scope() const { return {first_node_, nodes(), first_shell_, shells()}; } ///< the one that is open
-    /// Adds nodes and shells of a scope that is closed once more, moved, with the same ids, as a scope of their own.
+    /// the one that is open
+    DeckRange scope() const { return {first_node_, nodes(), first_shell_, shells()}; }
+    /// Adds nodes and shells of a scope that is closed once more, moved, with the same ids, as a
+    /// scope of their own.
     /// @param part_of  the part of a copy by that of its original
     void copy(const DeckRange& range, const Eigen::Affine3d& move, const std::function<int(int)>& part_of);
-    void drop_shells(const DeckRange& range);               ///< of a scope that is closed
-    size_t first_of_scope() const { return first_shell_; }  ///< number of the first shell since, as they were added
+    void drop_shells(const DeckRange& range); ///< of a scope that is closed
+    /// number of the first shell since, as they were added
+    size_t first_of_scope() const { return first_shell_; }
     std::optional<size_t> number_of_shell(std::int64_t id); ///< of the scope that is open
     /// Ids of the nodes of a shell of the scope that is open: three or four.
     std::span<const std::int64_t> corners(size_t shell) const
@@ -100,8 +107,9 @@ public:
     std::int64_t shell_id(size_t shell) const { return shell_[shell].id; }
     void move_shell(size_t shell, int part) { shell_[shell].part = part; }
     int part_of_shell(size_t shell) const { return shell_[shell].part; }
-    void set_thickness(size_t shell, double thickness);      ///< of its own, as in add_shell()
-    void add_set(std::string name, std::vector<int> shells); ///< by their numbers as they were added
+    void set_thickness(size_t shell, double thickness); ///< of its own, as in add_shell()
+    /// by their numbers as they were added
+    void add_set(std::string name, std::vector<int> shells);
     size_t sets() const { return deck_.sets.size(); }
     DeckSet& set(size_t number) { return deck_.sets[number]; }
     void drop_empty_sets();
@@ -126,7 +134,8 @@ public:
 private:
     struct Shell {
         std::int64_t id;
-        std::array<std::int64_t, 4> corner; ///< ids of nodes; their numbers once the scope is closed, -1: not there
+        std::array<std::int64_t, 4> corner; ///< ids of nodes; their numbers once the scope is
+                                            ///< closed, -1: not there
         int part;
         bool triangle;
     };

@@ -18,9 +18,10 @@ struct DeckChoice {
     std::vector<std::string> notes = {};
 };
 
-/// Takes the shells of parts by id or name, or of sets by name; all shells if nothing is wanted. Upper and lower case
-/// are equal unless that makes a name ambiguous.
-/// @throws InputError if there is no such part or several, it has no shells, or shells of it lack a node
+/// Takes the shells of parts by id or name, or of sets by name; all shells if nothing is wanted.
+/// Upper and lower case are equal unless that makes a name ambiguous.
+/// @throws InputError if there is no such part or several, it has no shells, or shells of it lack a
+/// node
 DeckChoice choose_parts(const Deck& deck, std::span<const std::string> wanted);
 
 /// One line for each part with shells, as messages show it; of many the first ones.

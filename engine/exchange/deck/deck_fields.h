@@ -11,7 +11,8 @@ public:
     static constexpr size_t most = 40;
 
     void cut_columns(std::string_view line, std::span<const int> widths); ///< characters per field
-    void cut_commas(std::string_view line); ///< fields beyond `most` are dropped, count() counts them
+    void cut_commas(std::string_view line); ///< fields beyond `most` are dropped, count() counts
+                                            ///< them
     void cut_words(std::string_view line);  ///< at blanks and tabs
 
     size_t count() const { return count_; } ///< including empty ones before the last

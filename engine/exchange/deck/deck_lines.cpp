@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t deepest = 20;        ///< files that include files; LS-DYNA stops at 10
-constexpr size_t most_files = 10'000; ///< a few that include each other more than once are soon without number
+constexpr size_t most_files = 10'000; ///< a few that include each other more than once are soon
+                                      ///< without number
 
 fs::path unique_name(const fs::path& path)
 {
@@ -92,7 +93,8 @@ void DeckLines::leave_file() { open_.back().rest = {}; }
 void DeckLines::add_folder(std::string_view name, bool relative)
 {
     constexpr size_t most = 100; // every file that is included is looked for in all of them
-    std::vector<fs::path> meant = {open_.front().path.parent_path() / fs::path(name)}; // of an absolute name that name
+    // of an absolute name that name
+    std::vector<fs::path> meant = {open_.front().path.parent_path() / fs::path(name)};
     if (!relative)
         meant.insert(meant.begin(), fs::path(name));
     for (fs::path& folder : meant) {

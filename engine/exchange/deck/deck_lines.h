@@ -12,29 +12,37 @@
 
 namespace spia {
 
-/// The lines of a deck, through the files that it includes; says where it is when something is wrong. Lines stay
-/// valid as long as this does. A file is taken once, unless it is asked for again: what is included again holds nothing new.
+/// The lines of a deck, through the files that it includes; says where it is when something is
+/// wrong. Lines stay valid as long as this does. A file is taken once, unless it is asked for
+/// again: what is included again holds nothing new.
 class DeckLines {
 public:
     DeckLines(std::filesystem::path file, std::string content, Progress progress = {});
 
     bool next(); ///< goes to the next line, empty or not; false at the end of the deck
-    std::string_view line() const { return line_; }                ///< without its end (LF or CR LF)
-    std::string_view text() const { return *content_.front(); }    ///< all of the deck, without the files it includes
-    void leave_file();                                             ///< skips the rest of the current file
-    size_t bytes_left() const { return open_.back().rest.size(); } ///< of the current file, behind the current line
-    /// The bytes behind the current line, or behind those taken before. @throws InputError if there are not so many
+    /// without its end (LF or CR LF)
+    std::string_view line() const { return line_; }
+    /// all of the deck, without the files it includes
+    std::string_view text() const { return *content_.front(); }
+    /// skips the rest of the current file
+    void leave_file();
+    /// of the current file, behind the current line
+    size_t bytes_left() const { return open_.back().rest.size(); }
+    /// The bytes behind the current line, or behind those taken before. @throws InputError if there
+    /// are not so many
     std::string_view bytes(size_t count);
     int depth() const { return int(open_.size()); } ///< 1: the deck itself
 
-    /// Goes on with the first line of another file, and comes back at its end. It is looked for beside the current file,
-    /// beside the deck and in the folders added; if it is not there a note says so and nothing happens.
+    /// Goes on with the first line of another file, and comes back at its end. It is looked for
+    /// beside the current file, beside the deck and in the folders added; if it is not there a note
+    /// says so and nothing happens.
     /// @throws InputError if the file includes itself, or files are nested too deep
     /// @param again  also if it was taken before
     void include(std::string_view name, bool again = false);
     void add_folder(std::string_view name, bool relative); ///< where to look for included files
 
-    std::int64_t whole(std::string_view field) const; ///< @throws InputError if it is no whole number
+    std::int64_t whole(std::string_view field) const; ///< @throws InputError if it is no whole
+                                                      ///< number
     double number(std::string_view field) const;      ///< @throws InputError if it is no number
     double coordinate(std::string_view field) const;  ///< @throws InputError if it is no length
     double checked_coordinate(double value) const;    ///< the same of a number
@@ -49,7 +57,8 @@ public:
         bool included = false;
     };
     Place place() const; ///< of the current line
-    /// What is wrong from here on is said of this line: a reader that has to look ahead knows where it is.
+    /// What is wrong from here on is said of this line: a reader that has to look ahead knows where
+    /// it is.
     void speak_of(std::optional<Place> place) { spoken_of_ = std::move(place); }
 
     std::vector<std::string> notes;  ///< what was wrong with included files; the first ones
@@ -65,7 +74,8 @@ private:
     void checkpoint() const;
     void note(std::string text);
 
-    std::vector<std::unique_ptr<const std::string>> content_; // of all files, for lines that are still looked at
+    // of all files, for lines that are still looked at
+    std::vector<std::unique_ptr<const std::string>> content_;
     std::vector<File> open_;
     std::set<std::filesystem::path> seen_;
     std::vector<std::filesystem::path> folders_;

@@ -7,8 +7,8 @@
 
 namespace spia {
 
-/// How wide the columns of an LS-DYNA keyword deck are: as the manual says, at least 10 (I10=Y, %), at least 20
-/// characters (LONG=Y, +).
+/// How wide the columns of an LS-DYNA keyword deck are: as the manual says, at least 10 (I10=Y, %),
+/// at least 20 characters (LONG=Y, +).
 enum class DynaFormat { standard, i10, wide };
 
 /// The head of a block, "*MAT_ELASTIC_TITLE +".
@@ -18,7 +18,8 @@ struct DynaKeyword {
     std::string name;                        ///< upper case, without star and mark
     std::string_view options;                ///< what follows the name
     DynaFormat format;                       ///< by its mark %, + or -; else the usual one
-    bool is(std::string_view prefix) const;  ///< this keyword, alone or with suffixes: "MAT" is not "MATRIX"
+    bool is(std::string_view prefix) const;  ///< this keyword, alone or with suffixes: "MAT" is not
+                                             ///< "MATRIX"
     bool has(std::string_view suffix) const; ///< whether one of its words is this
 };
 

@@ -87,7 +87,8 @@ void DynaNodeMoves::general(Set& set)
     }
 }
 
-/// The number of the transformation, that of the set, and whether it is moved at once or when the deck is read.
+/// The number of the transformation, that of the set, and whether it is moved at once or when the
+/// deck is read.
 void DynaNodeMoves::move_card(std::string_view line)
 {
     if (trimmed(line).empty())

@@ -12,8 +12,9 @@
 
 namespace spia {
 
-/// *NODE_TRANSFORM of an LS-DYNA deck, and the sets of nodes that it moves: *SET_NODE, _LIST, _LIST_GENERATE,
-/// _LIST_GENERATE_INCREMENT, _ADD, and _GENERAL by nodes and parts. [LS-DYNA Keyword User's Manual, volume I]
+/// *NODE_TRANSFORM of an LS-DYNA deck, and the sets of nodes that it moves: *SET_NODE, _LIST,
+/// _LIST_GENERATE, _LIST_GENERATE_INCREMENT, _ADD, and _GENERAL by nodes and parts. [LS-DYNA
+/// Keyword User's Manual, volume I]
 class DynaNodeMoves {
 public:
     DynaNodeMoves(DynaValues& values, DeckBuilder& deck, const DynaTransforms& transforms)

@@ -10,19 +10,22 @@
 
 namespace spia {
 
-/// What *PARAMETER gives a name; cards refer to it by "&name", and by "-&name" to its negative. What is local holds in its file and in those that it
-/// includes, before what is global. [LS-DYNA Keyword User's Manual, volume I, *PARAMETER]
+/// What *PARAMETER gives a name; cards refer to it by "&name", and by "-&name" to its negative.
+/// What is local holds in its file and in those that it includes, before what is global. [LS-DYNA
+/// Keyword User's Manual, volume I, *PARAMETER]
 class DynaParameters {
 public:
     void define(const DeckFields& card, bool local); ///< "R name", value, up to four times
-    /// "R name", expression of those that are known, see dyna_expression(); of type I without what is behind the point
+    /// "R name", expression of those that are known, see dyna_expression(); of type I without what
+    /// is behind the point
     void define_expression(std::string_view line, int width, bool local);
 
     void enter_file() { values_.emplace_back(); } ///< one that is included
     void leave_file() { values_.pop_back(); }
 
     static bool is_name(std::string_view field) { return field.starts_with('&') || field.starts_with("-&"); }
-    /// The text that "&name" or "-&name" stands for; nothing if it is not defined, and then it is remembered.
+    /// The text that "&name" or "-&name" stands for; nothing if it is not defined, and then it is
+    /// remembered.
     std::optional<std::string> find(std::string_view field);
 
     std::string undefined() const; ///< "&a, &b": all that were asked for in vain; empty if none

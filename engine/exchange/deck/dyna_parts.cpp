@@ -97,7 +97,8 @@ void DynaParts::section(std::string_view line)
         values_.cut(line, {10, 10, 10, 10, 10, 10, 10, 10});
         section_ = values_.id(0, &DynaPlacement::section);
         const bool angles_follow = values_.whole_or_zero(6) == 1;
-        constexpr std::int64_t usual_layers = 2; // where the card says none [LS-DYNA Keyword Manual, NIP]
+        constexpr std::int64_t usual_layers = 2; // where the card says none [LS-DYNA Keyword
+                                                 // Manual, NIP]
         const std::int64_t layers = angles_follow ? values_.whole_or_zero(3) : 0;
         layers_ = angles_follow && layers == 0 ? usual_layers : layers;
         ++count_;
@@ -136,7 +137,8 @@ void DynaParts::material(std::string_view line)
         return;
     }
     values_.cut(line, {10});
-    if (const auto id = read_whole_number(values_.fields()[0])) // newer decks may give a name instead
+    // newer decks may give a name instead
+    if (const auto id = read_whole_number(values_.fields()[0]))
         materials_[*id + values_.placement.material] = {keyword_, title_};
     count_ = -1;
 }

@@ -103,7 +103,8 @@ std::optional<Eigen::Affine3d> DynaTransforms::step(const std::string& option)
     return std::nullopt;
 }
 
-/// About an axis by its direction and a point on it, or where there is no more than three fields by two points.
+/// About an axis by its direction and a point on it, or where there is no more than three fields by
+/// two points.
 std::optional<Eigen::Affine3d> DynaTransforms::rotation()
 {
     Eigen::Vector3d axis = vector(1), at = vector(4);

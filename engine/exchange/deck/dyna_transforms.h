@@ -10,8 +10,8 @@
 
 namespace spia {
 
-/// *DEFINE_TRANSFORMATION of an LS-DYNA deck: MIRROR, SCALE, ROTATE, TRANSL, POINT and POS6P, one after the other. [LS-DYNA
-/// Keyword User's Manual, volume I]
+/// *DEFINE_TRANSFORMATION of an LS-DYNA deck: MIRROR, SCALE, ROTATE, TRANSL, POINT and POS6P, one
+/// after the other. [LS-DYNA Keyword User's Manual, volume I]
 class DynaTransforms {
 public:
     explicit DynaTransforms(DynaValues& values) : values_(values) {}
@@ -31,8 +31,9 @@ private:
 
     DynaValues& values_;
     bool title_next_ = false;
-    std::optional<std::int64_t> id_;                ///< of the block; none: it comes with the next card
-    std::map<std::int64_t, Eigen::Vector3d> point_; ///< of the block
+    /// of the block; none: it comes with the next card
+    std::optional<std::int64_t> id_;
+    std::map<std::int64_t, Eigen::Vector3d> point_;                  ///< of the block
     std::map<std::int64_t, std::optional<Eigen::Affine3d>> defined_; ///< nothing: it cannot be read
 };
 

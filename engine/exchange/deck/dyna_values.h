@@ -32,7 +32,8 @@ public:
     const DeckFields& fields() const { return fields_; }
     DeckLines& lines() { return lines_; }
 
-    // Field i, counted from 0. @throws InputError if it is something else, or a parameter that is not defined
+    // Field i, counted from 0. @throws InputError if it is something else, or a parameter that is
+    // not defined
     std::int64_t whole(size_t i) { return lines_.whole(meant(fields_[i])); }
     /// An id and what is added to it in this file; 0 stays: there is none.
     std::int64_t id(size_t i, std::int64_t DynaPlacement::*offset)
@@ -42,7 +43,8 @@ public:
     }
     std::int64_t whole_or_zero(size_t i) { return fields_[i].empty() ? 0 : whole(i); }
     double coordinate(size_t i) { return fields_[i].empty() ? 0 : lines_.coordinate(meant(fields_[i])); }
-    /// With the file's factor of lengths. 0 if there is none, nothing if its parameter is not defined: a part can be unfolded without.
+    /// With the file's factor of lengths. 0 if there is none, nothing if its parameter is not
+    /// defined: a part can be unfolded without.
     std::optional<double> thickness(size_t i);
 
     DynaFormat format = DynaFormat::standard; ///< of the cards that are cut

@@ -11,7 +11,8 @@ namespace spia {
 /// Named sets of element ids, which may hold other sets (Abaqus: *ELSET).
 class ElementSets {
 public:
-    void add(std::string_view name, std::int64_t first, std::int64_t last, std::int64_t step); ///< step above 0
+    /// step above 0
+    void add(std::string_view name, std::int64_t first, std::int64_t last, std::int64_t step);
     void add_set(std::string_view name, std::string_view other);
     bool has(std::string_view name) const;
 

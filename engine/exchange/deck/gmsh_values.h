@@ -8,8 +8,8 @@
 
 namespace spia {
 
-/// The values of a mesh file of Gmsh, record after record: the words of a line or, in a binary file, bytes. Both come in the
-/// same order.
+/// The values of a mesh file of Gmsh, record after record: the words of a line or, in a binary
+/// file, bytes. Both come in the same order.
 class GmshValues {
 public:
     explicit GmshValues(DeckLines& lines) : lines_(lines) {}
@@ -19,11 +19,12 @@ public:
     void begin_binary(std::int64_t size_bytes);
     bool binary() const { return binary_; }
 
-    /// Goes to the next record of a section. @param kinds  of the values of a binary one, a letter each: 'i' a whole number of
-    /// 4 bytes, 'z' a count or tag, 'd' a real number of 8 bytes
+    /// Goes to the next record of a section. @param kinds of the values of a binary one, a letter
+    /// each: 'i' a whole number of 4 bytes, 'z' a count or tag, 'd' a real number of 8 bytes
     void next(std::string_view kinds);
     void next_line(); ///< of what is text in binary files, too
-    /// Further values of the record: in a line they are there already. @param times  how often they come
+    /// Further values of the record: in a line they are there already. @param times how often they
+    /// come
     void more(std::string_view kinds, std::int64_t times = 1);
 
     std::int64_t whole(size_t i) const; ///< the value i of the record

@@ -11,23 +11,34 @@
 
 namespace spia {
 
-/// The entries of Nastran bulk data, each with its continuations: small field (8 columns), large field (16 columns, *)
-/// and free field (commas), INCLUDE followed. Executive and case control before BEGIN BULK are passed over.
+/// The entries of Nastran bulk data, each with its continuations: small field (8 columns), large
+/// field (16 columns, *) and free field (commas), INCLUDE followed. Executive and case control
+/// before BEGIN BULK are passed over.
 class NastranEntries {
 public:
     explicit NastranEntries(DeckLines& lines);
 
-    bool next();                                      ///< false at ENDDATA or the end
-    const std::string& name() const { return name_; } ///< upper case, without the star of a large field
-    /// Data field i, counted from 0 behind the name over all lines; without blanks around it, empty if there is none.
+    bool next(); ///< false at ENDDATA or the end
+    const std::string& name() const
+    {
+        return name_;
+    } ///< upper case, without the star of a large
+      ///< field
+    /// Data field i, counted from 0 behind the name over all lines; without blanks around it, empty
+    /// if there is none.
     std::string_view operator[](size_t i) const { return i < field_.size() ? field_[i] : std::string_view(); }
-    /// @throws InputError if its continuations are not in their order, or too many, so that what was read is not all of it
+    /// @throws InputError if its continuations are not in their order, or too many, so that what
+    /// was read is not all of it
     void require_whole() const;
 
     /// Names that comments give to properties (HyperMesh, Femap).
     const std::map<std::int64_t, std::string>& property_names() const { return property_name_; }
 
-    bool end_missing() const { return end_missing_; } ///< it says where it begins and not where it ends
+    bool end_missing() const
+    {
+        return end_missing_;
+    } ///< it says where it begins and not where it
+      ///< ends
 
 private:
     bool next_line();

@@ -16,7 +16,8 @@ Eigen::Vector3d along_axes(NastranSystems::Kind kind, const Eigen::Vector3d& c)
     if (kind == NastranSystems::Kind::cylindrical)
         return {c[0] * std::cos(c[1] * degree), c[0] * std::sin(c[1] * degree), c[2]};
     if (kind == NastranSystems::Kind::spherical) {
-        const double across = c[0] * std::sin(c[1] * degree); // the second is the angle from the third axis
+        // the second is the angle from the third axis
+        const double across = c[0] * std::sin(c[1] * degree);
         return {across * std::cos(c[2] * degree), across * std::sin(c[2] * degree), c[0] * std::cos(c[1] * degree)};
     }
     return c;

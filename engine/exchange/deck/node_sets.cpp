@@ -78,7 +78,8 @@ NodeSets::Members NodeSets::members(std::string_view name, DeckBuilder& deck, st
         if (range.last < range.first)
             continue;
         const std::uint64_t more =
-            (std::uint64_t(range.last) - std::uint64_t(range.first)) / std::uint64_t(range.step); // than one
+            // than one
+            (std::uint64_t(range.last) - std::uint64_t(range.first)) / std::uint64_t(range.step);
         spend(steps, 1 + std::min<std::uint64_t>(more, there.size()), name);
         if (more < there.size()) {
             std::int64_t id = range.first;

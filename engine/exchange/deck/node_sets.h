@@ -11,24 +11,29 @@
 
 namespace spia {
 
-/// Named sets of node ids of an Abaqus deck (*NSET, and NSET= of other keywords), which keep the order of their members
-/// if they are unsorted.
+/// Named sets of node ids of an Abaqus deck (*NSET, and NSET= of other keywords), which keep the
+/// order of their members if they are unsorted.
 class NodeSets {
 public:
     explicit NodeSets(DeckLines& lines) : lines_(lines) {}
 
-    /// To take the members that follow; a set that is there keeps what it has. @param unsorted  of a new one
+    /// To take the members that follow; a set that is there keeps what it has. @param unsorted of a
+    /// new one
     void open(std::string_view name, bool unsorted = false);
-    void add(std::int64_t first, std::int64_t last, std::int64_t step); ///< to the open set; step above 0
-    void add_set(std::string_view name);                                ///< what it holds now, to the open set
-    void spoil() { open_->spoiled = true; }                             ///< the open set holds what is not read
+    /// to the open set; step above 0
+    void add(std::int64_t first, std::int64_t last, std::int64_t step);
+    /// what it holds now, to the open set
+    void add_set(std::string_view name);
+    /// the open set holds what is not read
+    void spoil() { open_->spoiled = true; }
 
     bool has(std::string_view name) const;
     bool is_unsorted(std::string_view name) const;
     bool is_spoiled(std::string_view name) const;
 
     struct Members {
-        std::vector<std::int64_t> ids;         ///< of nodes that are there, each once where the set is sorted
+        std::vector<std::int64_t> ids;         ///< of nodes that are there, each once where the set
+                                               ///< is sorted
         std::optional<std::int64_t> missing{}; ///< a member for which there is no node
     };
     /// @param steps  work left; counted down

@@ -21,7 +21,8 @@ using Eigen::Vector3d;
 
 Matrix3d corners_of(const TriMesh& mesh, int face) { return mesh.position(Eigen::all, mesh.triangle.col(face)); }
 
-/// Barycentric coordinates of the foot of the point on the plane of the triangle; outside of it some are negative.
+/// Barycentric coordinates of the foot of the point on the plane of the triangle; outside of it
+/// some are negative.
 Vector3d on_plane_of(const Matrix3d& triangle, const Vector3d& point)
 {
     Eigen::Matrix<double, 3, 2> edge;
@@ -31,7 +32,8 @@ Vector3d on_plane_of(const Matrix3d& triangle, const Vector3d& point)
     return {1 - share.sum(), share[0], share[1]};
 }
 
-/// Per vertex of the boundary a place inside, no farther away than `reach`; elsewhere the vertex itself.
+/// Per vertex of the boundary a place inside, no farther away than `reach`; elsewhere the vertex
+/// itself.
 Eigen::Matrix3Xd a_little_inside(const TriMesh& mesh, double reach)
 {
     Eigen::Matrix3Xd middle = Eigen::Matrix3Xd::Zero(3, mesh.vertices());
@@ -138,7 +140,8 @@ SheetFields carry_fields(const TriMesh& original, const ClosestPointSearch& sear
         const Matrix3d t = corners_of(original, f);
         const double longest =
             std::max({(t.col(1) - t.col(0)).norm(), (t.col(2) - t.col(1)).norm(), (t.col(0) - t.col(2)).norm()});
-        constexpr double most = 64; // per side of a triangle: a plate of two of them has 8192 places
+        constexpr double most = 64; // per side of a triangle: a plate of two of them has 8192
+                                    // places
         carry_to_face(t, f, int(std::clamp(std::ceil(longest / (0.5 * edge)), 1.0, most)), search, face, result);
     });
     return result;

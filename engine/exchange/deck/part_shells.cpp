@@ -91,8 +91,8 @@ void take_parts(const FileElements& all, ShellMesh& mesh)
         p = number[size_t(p)];
 }
 
-/// The vertex of the part at which a corner of an element lies: of copies the one that its triangles use; -1 if they use
-/// several or none.
+/// The vertex of the part at which a corner of an element lies: of copies the one that its
+/// triangles use; -1 if they use several or none.
 int place_of(int file_vertex, int first, int last, const PartFile& part)
 {
     const int wanted = stands_for(part, file_vertex);

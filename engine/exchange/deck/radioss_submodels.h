@@ -18,8 +18,8 @@ struct RadiossOffsets {
     std::int64_t other = 0, node = 0, element = 0, part = 0, material = 0, property = 0, submodel = 0;
 };
 
-/// The submodels of a Radioss deck, //SUBMODEL to //ENDSUB, one in another: their offsets, their unit of length, and
-/// which nodes are theirs. [Altair Radioss Starter Reference Guide]
+/// The submodels of a Radioss deck, //SUBMODEL to //ENDSUB, one in another: their offsets, their
+/// unit of length, and which nodes are theirs. [Altair Radioss Starter Reference Guide]
 class RadiossSubmodels {
 public:
     RadiossSubmodels(DeckLines& lines, DeckBuilder& deck) : lines_(lines), deck_(deck) {}
@@ -30,19 +30,25 @@ public:
     void finish();                                ///< at the end of the deck
 
     void set_unit_of_deck(LengthUnit unit) { deck_unit_ = unit; }
-    void set_unit(std::optional<LengthUnit> unit); ///< of the one that is open; nothing: it is not known
+    void set_unit(std::optional<LengthUnit> unit); ///< of the one that is open; nothing: it is not
+                                                   ///< known
 
     bool is_inside() const { return !open_.empty(); }
-    int current() const { return open_.empty() ? -1 : open_.back(); } ///< its number; -1: the deck itself
-    double length() const { return open_.empty() ? 1 : all_[size_t(open_.back())].length; } ///< in the deck's unit
+    /// its number; -1: the deck itself
+    int current() const { return open_.empty() ? -1 : open_.back(); }
+    /// in the deck's unit
+    double length() const { return open_.empty() ? 1 : all_[size_t(open_.back())].length; }
     /// 0 stays: there is none. @throws InputError if the sum fits into no number
     std::int64_t shifted(std::int64_t id, std::int64_t RadiossOffsets::*offset) const;
 
     int count() const { return int(all_.size()); }
     std::optional<int> find(std::int64_t id) const;
-    int father(int submodel) const { return all_[size_t(submodel)].father; } ///< a lower number; -1: the deck
-    int owner(size_t node) const;                                            ///< of a node by its number; -1: the deck
-    std::vector<std::pair<int, DeckRange>> nodes() const;                    ///< of all submodels, by ranges
+    /// a lower number; -1: the deck
+    int father(int submodel) const { return all_[size_t(submodel)].father; }
+    /// of a node by its number; -1: the deck
+    int owner(size_t node) const;
+    /// of all submodels, by ranges
+    std::vector<std::pair<int, DeckRange>> nodes() const;
 
 private:
     struct Submodel {

@@ -15,8 +15,9 @@
 
 namespace spia {
 
-/// /TRANSFORM/TRA, ROT, SYM and SCA of a Radioss deck, and what they move: the groups of nodes /GRNOD/NODE and /GRNOD/PART, and by
-/// TRA and ROT submodels. [Altair Radioss Starter Reference Guide]
+/// /TRANSFORM/TRA, ROT, SYM and SCA of a Radioss deck, and what they move: the groups of nodes
+/// /GRNOD/NODE and /GRNOD/PART, and by TRA and ROT submodels. [Altair Radioss Starter Reference
+/// Guide]
 class RadiossTransforms {
 public:
     RadiossTransforms(DeckLines& lines, DeckBuilder& deck, const RadiossSubmodels& submodels)
@@ -24,9 +25,11 @@ public:
     {
     }
 
-    bool begin_group(std::string_view kind, std::int64_t id);     ///< false: such groups are not read
+    /// false: such groups are not read
+    bool begin_group(std::string_view kind, std::int64_t id);
     bool begin_transform(std::string_view kind, bool other_unit); ///< false: such ones are not read
-    void group(std::string_view line, int card);                  ///< @param card  counted from 0, the title
+    /// @param card counted from 0, the title
+    void group(std::string_view line, int card);
     void transform(std::string_view line, int card);
 
     void apply(); ///< one after the other, when all of the deck is read
@@ -61,7 +64,8 @@ private:
     std::int64_t group_ = 0; ///< that is read
     std::map<std::int64_t, Group> groups_;
     std::vector<Transform> transforms_;
-    std::vector<Eigen::Affine3d> moves_; ///< of each submodel, at last with those of the ones around it
+    std::vector<Eigen::Affine3d> moves_; ///< of each submodel, at last with those of the ones
+                                         ///< around it
     std::uint64_t work_ = 0;             ///< nodes looked at
 };
 

@@ -15,12 +15,13 @@
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/mesh/doctor.h"
 
-// Layouts: Abaqus Keywords Reference Guide and the CalculiX manual (*NODE, *ELEMENT, *ELSET, *SHELL SECTION, *INCLUDE).
+// Layouts: Abaqus Keywords Reference Guide and the CalculiX manual (*NODE, *ELEMENT, *ELSET, *SHELL
+// SECTION, *INCLUDE).
 namespace spia {
 namespace {
 
-/// Nodes of a shell, membrane or plane element by its type, the digit of "S4R", "STRI65", "M3D4", "CPS3"; 0: it is none. Gmsh writes
-/// all surfaces as plane stress.
+/// Nodes of a shell, membrane or plane element by its type, the digit of "S4R", "STRI65", "M3D4",
+/// "CPS3"; 0: it is none. Gmsh writes all surfaces as plane stress.
 int nodes_of(const std::string& type)
 {
     for (const std::string_view start :
@@ -67,7 +68,8 @@ private:
     struct Section {
         std::string set, material;
         double thickness;
-        bool layers, mirrored, varies; ///< of layers; of their mirror images too; from place to place
+        bool layers, mirrored, varies; ///< of layers; of their mirror images too; from place to
+                                       ///< place
     };
 
     /// A keyword line that ends with a comma goes on in the next one.
@@ -163,7 +165,8 @@ private:
     void other_element()
     {
         deck_.count_other_elements(type_ + " lines");
-        if (const auto id = read_whole_number(fields_[0])) // or a node, where this line goes on with one before
+        if (const auto id = read_whole_number(fields_[0])) // or a node, where this line goes on
+                                                           // with one before
             elements_.add_other(*id);
     }
 
@@ -226,7 +229,8 @@ private:
                              keyword.has("NODAL THICKNESS") || keyword.has("SHELL THICKNESS")});
         card_ = &AbaqusReader::section;
         if (keyword.name == "SHELL GENERAL SECTION" && !keyword.has("MATERIAL") && !keyword.has("COMPOSITE")) {
-            card_ = nullptr; // what follows is its stiffness [Abaqus Keywords Reference, *SHELL GENERAL SECTION]
+            card_ = nullptr; // what follows is its stiffness [Abaqus Keywords Reference, *SHELL
+                             // GENERAL SECTION]
             deck_.count_skipped("*SHELL GENERAL SECTION by its stiffness");
         }
     }

@@ -13,8 +13,8 @@
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/mesh/doctor.h"
 
-// Card layouts: LS-DYNA Keyword User's Manual, volume I (*NODE, *ELEMENT_SHELL, *PART, *SECTION_SHELL, *INCLUDE,
-// *PARAMETER; "Getting started" for I10=Y, LONG=Y and the marks %, +, -).
+// Card layouts: LS-DYNA Keyword User's Manual, volume I (*NODE, *ELEMENT_SHELL, *PART,
+// *SECTION_SHELL, *INCLUDE, *PARAMETER; "Getting started" for I10=Y, LONG=Y and the marks %, +, -).
 namespace spia {
 namespace {
 
@@ -30,7 +30,8 @@ public:
     {
         while (lines_.next()) {
             while (int(file_.size()) > lines_.depth()) {
-                file_.pop_back(); // back from an included file, in the block that it was included from
+                file_.pop_back(); // back from an included file, in the block that it was included
+                                  // from
                 values_.parameters.leave_file();
             }
             const std::string_view line = lines_.line();
@@ -52,8 +53,10 @@ private:
     using Card = void (DynaReader::*)(std::string_view);
     /// Where a file that is open stands.
     struct File {
-        DynaFormat usual = DynaFormat::standard, format = DynaFormat::standard; // of the file, of the block
-        Card card = nullptr;                                                    // null: lines are passed over
+        // of the file, of the block
+        DynaFormat usual = DynaFormat::standard, format = DynaFormat::standard;
+        // null: lines are passed over
+        Card card = nullptr;
         std::string keyword = {};
         std::string text = {}; // the beginning of a file name
         int cards = 0;         // of an *INCLUDE_TRANSFORM so far
@@ -79,7 +82,8 @@ private:
             file.card = card_of(keyword);
     }
 
-    /// Shells with cards that are known; others (laminates, NURBS, sources of shells) have cards of their own.
+    /// Shells with cards that are known; others (laminates, NURBS, sources of shells) have cards of
+    /// their own.
     static bool is_shell(const DynaKeyword& keyword)
     {
         if (!keyword.is("ELEMENT_SHELL"))
@@ -190,8 +194,9 @@ private:
             deck_.add_shell(deck_.part(shell_.part), shell_.id, shell_.corner);
     }
 
-    /// The mean over the corners. One that is not given is zero, and zero is that of the section [LS-DYNA Keyword Manual Vol. I,
-    /// *ELEMENT_SHELL_THICKNESS], which is not known here: then the whole element has that of its section.
+    /// The mean over the corners. One that is not given is zero, and zero is that of the section
+    /// [LS-DYNA Keyword Manual Vol. I, *ELEMENT_SHELL_THICKNESS], which is not known here: then the
+    /// whole element has that of its section.
     void thickness(std::string_view line)
     {
         values_.cut(line, {16, 16, 16, 16, 16});
@@ -233,7 +238,8 @@ private:
         lines_.include(std::exchange(top().text, {}));
     }
 
-    /// Five cards, blank ones too: name, offsets, offset of all other ids, factors, number of the transformation.
+    /// Five cards, blank ones too: name, offsets, offset of all other ids, factors, number of the
+    /// transformation.
     void include_transform(std::string_view line)
     {
         int& card = top().cards;

@@ -7,12 +7,13 @@
 #include "engine/exchange/deck/gmsh_values.h"
 #include "engine/exchange/deck/read_deck.h"
 
-// Layout: Gmsh reference manual, "MSH file format" (4.1, and 4.0 of Gmsh 4.0) and "Legacy formats" (versions 1 and 2), as
-// text and, of 4.1 and 2, binary.
+// Layout: Gmsh reference manual, "MSH file format" (4.1, and 4.0 of Gmsh 4.0) and "Legacy formats"
+// (versions 1 and 2), as text and, of 4.1 and 2, binary.
 namespace spia {
 namespace {
 
-/// 3 or 4 for a triangle or a quadrangle of any order, whose corners come first; 0 for other elements.
+/// 3 or 4 for a triangle or a quadrangle of any order, whose corners come first; 0 for other
+/// elements.
 size_t corners_of(std::int64_t type)
 {
     for (const int triangle : {2, 9, 20, 21, 22, 23, 24, 25, 42, 43, 44, 45, 46, 52, 53, 54, 55, 56})
@@ -275,7 +276,8 @@ private:
         }
     }
 
-    /// Some of one type together: type, how many, tags of each; then number, tags and nodes of each.
+    /// Some of one type together: type, how many, tags of each; then number, tags and nodes of
+    /// each.
     void flat_binary_elements()
     {
         for (std::int64_t n = count_in_text(); n > 0;) {
@@ -350,9 +352,11 @@ private:
     DeckBuilder deck_;
     GmshValues values_;
     double version_ = 0;
-    std::map<std::int64_t, std::string> name_;                            // of physical groups of surfaces
+    // of physical groups of surfaces
+    std::map<std::int64_t, std::string> name_;
     std::map<std::int64_t, std::vector<std::int64_t>> groups_of_surface_; // format 4
-    std::map<std::int64_t, std::vector<int>> further_;                    // shells of groups that are nobody's first
+    // shells of groups that are nobody's first
+    std::map<std::int64_t, std::vector<int>> further_;
     std::map<std::int64_t, int> part_of_group_;
 };
 

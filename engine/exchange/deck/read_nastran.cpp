@@ -8,7 +8,8 @@
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/mesh/doctor.h"
 
-// Entry layouts: Quick Reference Guide of MSC and NX Nastran (GRID, GRDSET, CORD1R, CORD2R, CTRIA3, CQUAD4, PSHELL).
+// Entry layouts: Quick Reference Guide of MSC and NX Nastran (GRID, GRDSET, CORD1R, CORD2R, CTRIA3,
+// CQUAD4, PSHELL).
 namespace spia {
 namespace {
 
@@ -109,8 +110,8 @@ private:
             own_thickness_.push_back(own);
     }
 
-    /// Relative ones are shares of the property's, corners without one have that of the property. [Quick Reference Guide,
-    /// CQUAD4: TFLAG, Ti]
+    /// Relative ones are shares of the property's, corners without one have that of the property.
+    /// [Quick Reference Guide, CQUAD4: TFLAG, Ti]
     void thicken_shells()
     {
         for (const CornerThickness& own : own_thickness_) {
@@ -145,7 +146,8 @@ private:
             part.thickness = lines_.number(entry_[2]);
     }
 
-    /// The thickness of a laminate is that of its layers: material, thickness, angle, output from the ninth field on.
+    /// The thickness of a laminate is that of its layers: material, thickness, angle, output from
+    /// the ninth field on.
     void composite()
     {
         entry_.require_whole();
@@ -263,7 +265,8 @@ private:
     struct SystemByNodes {
         std::int64_t id;
         NastranSystems::Kind kind;
-        std::array<std::int64_t, 3> node; ///< origin, on the third axis, in the plane of the first and third
+        std::array<std::int64_t, 3> node; ///< origin, on the third axis, in the plane of the first
+                                          ///< and third
     };
     std::vector<SystemByNodes> by_nodes_;
     DeckLines& lines_;

@@ -10,7 +10,8 @@
 #include "engine/exchange/deck/radioss_transforms.h"
 #include "engine/exchange/deck/read_deck.h"
 
-// Layouts: Radioss block format, starter input (/BEGIN, /NODE, /SHELL, /SH3N, /PART, /PROP/TYPE1, /MAT), columns of ten and twenty.
+// Layouts: Radioss block format, starter input (/BEGIN, /NODE, /SHELL, /SH3N, /PART, /PROP/TYPE1,
+// /MAT), columns of ten and twenty.
 namespace spia {
 namespace {
 
@@ -62,7 +63,8 @@ private:
             word[words] = trimmed(rest.substr(0, slash));
             rest.remove_prefix(slash == rest.npos ? rest.size() : slash + 1);
         }
-        const std::string name = upper_case(!word[0].empty() ? word[0] : "/" + std::string(word[1])); // "//SUBMODEL"
+        // "//SUBMODEL"
+        const std::string name = upper_case(!word[0].empty() ? word[0] : "/" + std::string(word[1]));
         if (name == "BEGIN")
             card_ = &RadiossReader::begin;
         else if (name == "NODE") {
@@ -192,7 +194,8 @@ private:
     {
         if (trimmed(line).empty())
             return;
-        cut(line, std::array{10, 10, 10, 10, 10, 10, 20, 20}); // a blank field, an angle and a thickness at the end
+        // a blank field, an angle and a thickness at the end
+        cut(line, std::array{10, 10, 10, 10, 10, 10, 20, 20});
         add_shell(4, fields_[7]);
     }
     void triangle(std::string_view line)

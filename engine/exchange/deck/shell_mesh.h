@@ -15,7 +15,8 @@ struct ShellPart {
     std::string name = {};     ///< may be empty
     std::string material = {}; ///< what the deck calls it; may be empty
     std::int64_t material_id = 1;
-    double thickness = 0; ///< of the flat sheet, in the unit of the mesh; 0: not the same everywhere
+    double thickness = 0; ///< of the flat sheet, in the unit of the mesh; 0: not the same
+                          ///< everywhere
 };
 
 /// Nodes and shells with the ids of a solver deck, ready to be written; all nodes are used.

@@ -7,10 +7,11 @@
 #include "engine/exchange/deck/write_shell_mesh.h"
 #include "engine/exchange/text/fixed_number.h"
 
-// Card layouts: LS-DYNA Keyword User's Manual, volume I: *ELEMENT_SHELL_THICKNESS (a second card of THIC1 to THIC4, 4 E16),
-// *INITIAL_STRESS_SHELL (EID, NPLANE, NTHICK, NHISV, NTENSR, LARGE in 6 I10; with LARGE = 1 each point T, SIGXX, SIGYY, SIGZZ, SIGXY in 5 E16 and
-// SIGYZ, SIGZX, EPS in 3 E16), *INITIAL_STRAIN_SHELL (EID, NPLANE, NTHICK, LARGE in 4 I10; EPSXX, EPSYY, EPSZZ, EPSXY, EPSYZ and
-// EPSZX, T). MSC Nastran Quick Reference Guide: CQUAD4, CTRIA3.
+// Card layouts: LS-DYNA Keyword User's Manual, volume I: *ELEMENT_SHELL_THICKNESS (a second card of
+// THIC1 to THIC4, 4 E16), *INITIAL_STRESS_SHELL (EID, NPLANE, NTHICK, NHISV, NTENSR, LARGE in 6
+// I10; with LARGE = 1 each point T, SIGXX, SIGYY, SIGZZ, SIGXY in 5 E16 and SIGYZ, SIGZX, EPS in 3
+// E16), *INITIAL_STRAIN_SHELL (EID, NPLANE, NTHICK, LARGE in 4 I10; EPSXX, EPSYY, EPSZZ, EPSXY,
+// EPSYZ and EPSZX, T). MSC Nastran Quick Reference Guide: CQUAD4, CTRIA3.
 namespace spia {
 namespace {
 

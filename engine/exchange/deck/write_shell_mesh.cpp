@@ -14,10 +14,11 @@
 #include "engine/exchange/text/fixed_number.h"
 #include "engine/exchange/text/text_encoding.h"
 
-// Card layouts: LS-DYNA Keyword User's Manual, volume I, *NODE (I8, 3 E16), *ELEMENT_SHELL (10 I8), *PART (title; 8 I10), *SECTION_SHELL (two
-// cards of 8 fields of 10), "Getting started" for I10=Y; MSC Nastran Quick Reference Guide, "Format of bulk data entries", GRID,
-// CQUAD4, CTRIA3, PSHELL; Abaqus Keywords Reference Guide, *NODE, *ELEMENT, *SHELL SECTION; Gmsh reference manual, "MSH file
-// format version 2".
+// Card layouts: LS-DYNA Keyword User's Manual, volume I, *NODE (I8, 3 E16), *ELEMENT_SHELL (10 I8),
+// *PART (title; 8 I10), *SECTION_SHELL (two cards of 8 fields of 10), "Getting started" for I10=Y;
+// MSC Nastran Quick Reference Guide, "Format of bulk data entries", GRID, CQUAD4, CTRIA3, PSHELL;
+// Abaqus Keywords Reference Guide, *NODE, *ELEMENT, *SHELL SECTION; Gmsh reference manual, "MSH
+// file format version 2".
 namespace spia {
 namespace {
 

@@ -92,7 +92,8 @@ MfemTopology mfem_topology(const MultiPatch& patches)
     MfemTopology topology;
     number_corners(patches, topology);
     const Strips strip = strips(patches);
-    std::map<std::pair<int, Side>, PatchSide> before; // the side of an earlier patch that is the same edge
+    std::map<std::pair<int, Side>, PatchSide> before; // the side of an earlier patch that is the
+                                                      // same edge
     for (const PatchInterface& joint : patches.interfaces) {
         const bool ordered =
             std::pair(joint.first.patch, joint.first.side) < std::pair(joint.second.patch, joint.second.side);

@@ -6,7 +6,8 @@
 
 namespace spia {
 
-/// How patches join, in the words of MFEM: corners, edges between them, and knot vectors that edges share.
+/// How patches join, in the words of MFEM: corners, edges between them, and knot vectors that edges
+/// share.
 struct MfemTopology {
     struct Edge {
         int knots;    ///< number of the knot vector
@@ -18,7 +19,8 @@ struct MfemTopology {
     std::vector<std::array<int, 4>> edge; ///< per patch those of v = 0, u = 1, v = 1, u = 0
 };
 
-/// Numbers rise in the order of patches; a knot vector has the sense of the first patch that has it.
+/// Numbers rise in the order of patches; a knot vector has the sense of the first patch that has
+/// it.
 /// @pre require_watertight() @throws InputError if MFEM has no words for it, see write_mfem()
 MfemTopology mfem_topology(const MultiPatch& patches);
 

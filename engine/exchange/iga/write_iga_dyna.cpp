@@ -47,7 +47,8 @@ std::string patch_text(int id, const NurbsSurface& patch)
 std::string shell_text(int id, double thickness, int form, int material)
 {
     constexpr int through_thickness = 5, full_gauss = 1;
-    const std::string default_count = fixed_number(0.0, narrow); // interpolation elements: as many as the degree
+    // interpolation elements: as many as the degree
+    const std::string default_count = fixed_number(0.0, narrow);
     return "*IGA_SHELL\n$      SID       PID      NISR      NISS\n" + fixed_number(id, narrow) +
            fixed_number(id, narrow) + default_count + default_count + "\n" + fmt::format("*PART\npatch {}\n", id) +
            integers({id, id, material}) + "*SECTION_IGA_SHELL\n$    SECID    ELFORM      SHRF       NIP       IRL\n" +

@@ -20,7 +20,8 @@ std::string topology_text(const MultiPatch& patches)
         fmt::format_to(end, "{} {} {}\n", p + 1, square, fmt::join(topology.corner[p], " "));
     const std::vector<PatchSide> outer = outer_sides(patches);
     fmt::format_to(end, "\nboundary\n{}\n", outer.size());
-    for (size_t i = 0; i < outer.size(); ++i) { // counter-clockwise, as the faces of the elements run
+    for (size_t i = 0; i < outer.size(); ++i) { // counter-clockwise, as the faces of the elements
+                                                // run
         const std::array<int, 4>& corner = topology.corner[size_t(outer[i].patch)];
         const size_t side = size_t(outer[i].side);
         fmt::format_to(end, "{} {} {} {}\n", i + 1, segment, corner[side], corner[(side + 1) % 4]);

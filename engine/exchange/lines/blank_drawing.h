@@ -17,8 +17,10 @@ struct DrawnBend {
     /// Which fibre has the length of the blank: K x thickness from the hollow side. None: a sharp
     /// fold, which has no arc.
     std::optional<double> k = 0.5;
-    bool up = false;                      ///< seen on the blank as it is drawn the legs come towards the eye
-    std::vector<Eigen::Matrix2Xd> middle; ///< along the bend, where it is bent: lines of two points or more
+    bool up = false;                      ///< seen on the blank as it is drawn the legs come
+                                          ///< towards the eye
+    std::vector<Eigen::Matrix2Xd> middle; ///< along the bend, where it is bent: lines of two points
+                                          ///< or more
     std::vector<Eigen::Matrix2Xd> zone;   ///< where the bend begins and ends
     double allowance = 0;                 ///< mm, of the blank that the bend takes; 0: not known
     double deduction = 0;                 ///< mm, see SheetBend; told with the allowance
@@ -30,9 +32,11 @@ struct BlankDrawing {
     std::vector<DrawnBend> bends = {};
     std::vector<Eigen::Matrix2Xd> marks =
         {}; ///< what is scribed: lines of two points or more; a closed one ends where it begins
-    std::vector<std::vector<StatedPiece>> stated = {}; ///< per loop what a CAD file says of it; empty: nothing of any
-    std::string lengths_of = {}; ///< which surface of the sheet, "neutral fibre, K 0.44"; empty: not told
-    double thickness = 0;        ///< mm, of the flat sheet; 0: not told
+    std::vector<std::vector<StatedPiece>> stated = {}; ///< per loop what a CAD file says of it;
+                                                       ///< empty: nothing of any
+    std::string lengths_of = {};                       ///< which surface of the sheet, "neutral
+                                                       ///< fibre, K 0.44"; empty: not told
+    double thickness = 0;                              ///< mm, of the flat sheet; 0: not told
 };
 
 } // namespace spia

@@ -10,7 +10,8 @@ namespace spia {
 /// A closed polygon in the plane, mm, 2 by #points; the last point is joined to the first.
 using OutlineLoop = Eigen::Matrix2Xd;
 
-/// Closed rows of boundary vertices: that around the largest area of the blank first, then the holes.
+/// Closed rows of boundary vertices: that around the largest area of the blank first, then the
+/// holes.
 /// @throws InputError if the blank is not one of this part, or the part has no boundary
 std::vector<std::vector<int>> outline_vertices(const TriMesh& part, const Blank& blank);
 

@@ -49,7 +49,8 @@ Eigen::Vector3d place(const Spline& spline, size_t span, double u)
 void add_span(const Spline& spline, size_t span, double from, double to, const Eigen::Vector3d& a,
               const Eigen::Vector3d& b, double tolerance, int depth, Points& points)
 {
-    constexpr int least = 2, most = 14; // halvings: the first ones in any case, for a span may wind about its chord
+    constexpr int least = 2, most = 14; // halvings: the first ones in any case, for a span may wind
+                                        // about its chord
     const double middle = (from + to) / 2;
     const Eigen::Vector3d m = place(spline, span, middle), along = b - a;
     const double length = along.norm();

@@ -12,17 +12,19 @@ enum class DxfVersion {
 
 /// What the outline and the holes are drawn as.
 enum class DxfCurves {
-    arcs,      ///< circles, arcs and lines where they are found, else straight pieces through the places of the mesh
+    arcs,      ///< circles, arcs and lines where they are found, else straight pieces through the
+               ///< places of the mesh
     polylines, ///< straight pieces through the places of the mesh, all of them
-    splines,   ///< circles, arcs and lines where they are found, else cubic splines through the places of the mesh
+    splines,   ///< circles, arcs and lines where they are found, else cubic splines through the
+               ///< places of the mesh
 };
 
 struct DxfOptions {
     LengthUnit unit = LengthUnit::mm; ///< of the lengths in the file, which its header names
     DxfVersion version = DxfVersion::r2000;
     DxfCurves curves = DxfCurves::arcs;
-    double tolerance =
-        0.01; ///< mm: no place of the mesh is farther from what is drawn; a tenth of what lasers cut within
+    double tolerance = 0.01; ///< mm: no place of the mesh is farther from what is drawn; a tenth of
+                             ///< what lasers cut within
 
     friend bool operator==(const DxfOptions&, const DxfOptions&) = default;
 };

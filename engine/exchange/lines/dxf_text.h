@@ -9,8 +9,9 @@
 
 namespace spia {
 
-/// A DXF file is a row of group codes and values, two lines each. Objects name each other by handles; those of the
-/// fixed objects are below 0x100. Files of version 12 have neither owners nor the marks of subclasses: they are left out.
+/// A DXF file is a row of group codes and values, two lines each. Objects name each other by
+/// handles; those of the fixed objects are below 0x100. Files of version 12 have neither owners nor
+/// the marks of subclasses: they are left out.
 class DxfText {
 public:
     explicit DxfText(DxfVersion version = DxfVersion::r2000) : r12_(version == DxfVersion::r12) {}
@@ -77,7 +78,8 @@ constexpr int model_space = 0x20, layer_outline = 0x34, layer_holes = 0x35, laye
               first_entity = 0x100; ///< what stands in every file is below
 }
 
-/// Everything before the first entity; then come the entities, then end_dxf(). For .cpp files of engine/exchange.
+/// Everything before the first entity; then come the entities, then end_dxf(). For .cpp files of
+/// engine/exchange.
 void begin_dxf(DxfText& dxf, const DxfFrame& frame);
 void end_dxf(DxfText& dxf);
 

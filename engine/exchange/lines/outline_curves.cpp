@@ -101,8 +101,10 @@ public:
         return result;
     }
 
-    /// Takes the runs of edges on an arc or a line that are not yet taken, each as long as it can be.
-    /// @param wider what is looked for later: a run that is much longer then is left for it, for a piece of a free curve is within a small
+    /// Takes the runs of edges on an arc or a line that are not yet taken, each as long as it can
+    /// be.
+    /// @param wider what is looked for later: a run that is much longer then is left for it, for a
+    /// piece of a free curve is within a small
     ///              tolerance of a circle, too
     void take_arcs(const ArcLimits& limits, const ArcLimits* wider = nullptr)
     {
@@ -154,7 +156,8 @@ private:
         return edges;
     }
 
-    /// The longest run that fits, by doubling and halving: what fits for long fits for less. 0: none of `least` edges
+    /// The longest run that fits, by doubling and halving: what fits for long fits for less. 0:
+    /// none of `least` edges
     template <class Fits> int longest(int from, int least, const Fits& fits) const
     {
         const int most = std::min(free_from(from), count_ - 1);
@@ -193,7 +196,8 @@ private:
     {
         const Eigen::Vector2d a = at(from), b = at(from + edges);
         double sign = 0;
-        for (int k = 0; k + 1 < edges; ++k) { // all turn one way; chords of one circle by half of what both span
+        for (int k = 0; k + 1 < edges; ++k) { // all turn one way; chords of one circle by half of
+                                              // what both span
             const Eigen::Vector2d u = at(from + k + 1) - at(from + k), v = at(from + k + 2) - at(from + k + 1);
             const double turn = std::atan2(u[0] * v[1] - u[1] * v[0], u.dot(v));
             if (turn == 0 || turn * sign < 0 || std::abs(turn) > limits.chord)
@@ -251,7 +255,8 @@ private:
         return true;
     }
 
-    /// From where the first run ends, for that is an end of a run wherever one begins; so none is cut in two.
+    /// From where the first run ends, for that is an end of a run wherever one begins; so none is
+    /// cut in two.
     template <class Longest> void take(const Longest& longest_from, OutlinePiece::Kind kind)
     {
         int start = 0;
@@ -269,7 +274,8 @@ private:
             }
             OutlinePiece piece{kind, from, edges};
             if (kind == OutlinePiece::Kind::arc)
-                piece.bulge = arc(from, edges, {std::numeric_limits<double>::infinity(), pi, 2}); // as it was found
+                // as it was found
+                piece.bulge = arc(from, edges, {std::numeric_limits<double>::infinity(), pi, 2});
             found_.push_back(piece);
             for (int e = 0; e < edges; ++e)
                 taken_[size_t((from + e) % count_)] = 1;
@@ -305,7 +311,8 @@ OutlineCurves find_curves(const OutlineLoop& loop, double exact, double toleranc
     int known = 0;
     for (const StatedPiece& piece : stated)
         known += piece.edges;
-    for (const StatedPiece& piece : stated) // all around, or of a hole that is round beyond what is stated, too
+    for (const StatedPiece& piece : stated) // all around, or of a hole that is round beyond what is
+                                            // stated, too
         if (piece.kind == OutlinePiece::Kind::arc &&
             (piece.edges == loop.cols() ||
              (known < loop.cols() && finder.is_circle({piece.centre, piece.radius}, loose))))

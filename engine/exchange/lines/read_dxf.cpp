@@ -82,7 +82,8 @@ struct Entity {
         constexpr double most = 1e9; // flags are small; what is not is none
         return (int(std::clamp(number(code, 0), -most, most)) & bit) != 0;
     }
-    /// Circles and flat polylines may be drawn in a plane of their own; only that of the drawing is read.
+    /// Circles and flat polylines may be drawn in a plane of their own; only that of the drawing is
+    /// read.
     bool in_plane() const { return number(210, 0) == 0 && number(220, 0) == 0 && number(230, 1) > 0; }
 };
 
@@ -160,7 +161,8 @@ public:
             return;
         if (entity.type == "LINE")
             return add(entity, {entity.point(10), entity.point(11)}, false);
-        if (!(entity.in_plane() || entity.type == "SPLINE") || !read(entity)) // the points of a spline lie in space
+        // the points of a spline lie in space
+        if (!(entity.in_plane() || entity.type == "SPLINE") || !read(entity))
             ++other_[entity.in_plane() || entity.type == "SPLINE" ? entity.type : entity.type + " in another plane"];
     }
 
@@ -223,8 +225,8 @@ private:
         add(entity, std::move(points), false);
     }
 
-    /// A DXF file has no names for lines: several of a layer are told apart by their numbers on it, in the order of the file. "0" is
-    /// the layer of what was put on none.
+    /// A DXF file has no names for lines: several of a layer are told apart by their numbers on it,
+    /// in the order of the file. "0" is the layer of what was put on none.
     void number_lines()
     {
         std::map<std::string, int> on_layer, number;

@@ -44,7 +44,8 @@ SmoothSpline spline_through(const Eigen::Matrix2Xd& p, const Eigen::Vector2d* fi
         t.col(0) = at_end(0, 1);
     if (!last)
         t.col(count - 1) = at_end(count - 1, count - 2);
-    // Cubic pieces between the points; where two meet with one tangent two knots do, and the point itself is no pole.
+    // Cubic pieces between the points; where two meet with one tangent two knots do, and the point
+    // itself is no pole.
     double at = 0;
     spline.knots.assign(4, 0);
     spline.poles.emplace_back(p.col(0));

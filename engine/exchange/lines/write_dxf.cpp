@@ -269,19 +269,22 @@ const Eigen::Matrix2Xd* longest_line(const DrawnBend& bend)
     return longest == bend.middle.end() ? nullptr : &*longest;
 }
 
-/// mm, of all texts of a drawing: what is no longer than the shortest bend, but to be read beside the blank.
+/// mm, of all texts of a drawing: what is no longer than the shortest bend, but to be read beside
+/// the blank.
 double text_height(const BlankDrawing& drawing, double size, double mm)
 {
     double height = size / 60;
     for (const DrawnBend& bend : drawing.bends)
         if (const Eigen::Matrix2Xd* line = longest_line(bend)) {
-            const double letters = double(label(bend, mm).size()) - 2; // %%d is one; about as wide as high
+            // %%d is one; about as wide as high
+            const double letters = double(label(bend, mm).size()) - 2;
             height = std::min(height, 0.9 * length_of(*line) / letters);
         }
     return std::max(height, size / 120);
 }
 
-/// Middle line and text of a bend. The text stands over the line, to be read from below or from the right.
+/// Middle line and text of a bend. The text stands over the line, to be read from below or from the
+/// right.
 void draw_bend(Entities& draw, const DrawnBend& bend, double height, const DxfOptions& options)
 {
     const char* layer = bend.up ? "BEND_UP" : "BEND_DOWN";
@@ -295,7 +298,8 @@ void draw_bend(Entities& draw, const DrawnBend& bend, double height, const DxfOp
     if (const Eigen::Matrix2Xd* longest = longest_line(bend)) {
         const std::string text = label(bend, millimetres(options.unit));
         Eigen::Vector2d way = longest->rightCols<1>() - longest->col(0);
-        constexpr double upright = 1e-3; // of its length: a solved blank is not upright to the last digit
+        constexpr double upright = 1e-3; // of its length: a solved blank is not upright to the last
+                                         // digit
         if (way[0] < -upright * way.norm() || (way[0] < upright * way.norm() && way[1] < 0))
             way = -way;
         const double turn = std::atan2(way[1], way[0]);

@@ -14,7 +14,8 @@ namespace spia {
 /// Line and text of a bend have extended data of the application SPIA: texts (code 1000) `bend`, its name, then a name and a number (1040) each:
 /// `angle_deg`, `inner_radius` (lengths in the unit of the file), `k`, and where they are known `allowance`, `deduction` and `thickness`.
 /// Comments (999) at the beginning tell which surface of the sheet the lengths are of, and its thickness. The last four layers are there if something is on them. Numbers have 17 digits.
-/// @throws InputError if there is no outline, a line is none, or splines are asked for in R12; ExchangeError if the file cannot be written
+/// @throws InputError if there is no outline, a line is none, or splines are asked for in R12;
+/// ExchangeError if the file cannot be written
 void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, const DxfOptions& options = {});
 
 } // namespace spia

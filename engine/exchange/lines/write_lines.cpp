@@ -58,8 +58,9 @@ Handle(IGESData_IGESEntity) entity_126(const SheetLine& line, LengthUnit unit)
     const Eigen::Matrix3Xd points = run(line) / millimetres(unit);
     const std::vector<double> at = arc(points);
     const int last = int(points.cols()) - 1;
-    Handle(TColStd_HArray1OfReal) knots = new TColStd_HArray1OfReal(-1, last + 1), // IGES counts them from -degree
-        weights = new TColStd_HArray1OfReal(0, last);
+    // IGES counts them from -degree
+    Handle(TColStd_HArray1OfReal) knots = new TColStd_HArray1OfReal(-1, last + 1),
+                                  weights = new TColStd_HArray1OfReal(0, last);
     Handle(TColgp_HArray1OfXYZ) poles = new TColgp_HArray1OfXYZ(0, last);
     for (int k = 0; k <= last; ++k) {
         knots->SetValue(k, at[size_t(k)]);

@@ -8,12 +8,15 @@
 
 namespace spia {
 
-// Files of lines in space: trim lines on a binder face, bend lines, lines drawn on a part. Every file keeps points and order of the
-// lines; numbers have 17 digits, and the same lines give the same bytes under SOURCE_DATE_EPOCH.
-// @throws InputError if there is no line or one is none (two finite points or more, no two running ones at one place);
+// Files of lines in space: trim lines on a binder face, bend lines, lines drawn on a part. Every
+// file keeps points and order of the lines; numbers have 17 digits, and the same lines give the
+// same bytes under SOURCE_DATE_EPOCH.
+// @throws InputError if there is no line or one is none (two finite points or more, no two running
+// ones at one place);
 //         ExchangeError if the file cannot be written
 
-/// IGES 5.3: each line one entity 126, a B-spline of degree 1 through its points by arc length, with its name (406 form 15).
+/// IGES 5.3: each line one entity 126, a B-spline of degree 1 through its points by arc length,
+/// with its name (406 form 15).
 void write_lines_iges(const std::filesystem::path& path, std::span<const SheetLine> lines,
                       const std::string& part_name = "part", LengthUnit unit = LengthUnit::mm);
 
@@ -21,8 +24,8 @@ void write_lines_iges(const std::filesystem::path& path, std::span<const SheetLi
 void write_lines_step(const std::filesystem::path& path, std::span<const SheetLine> lines,
                       const std::string& part_name = "part", LengthUnit unit = LengthUnit::mm);
 
-/// DXF (AutoCAD 2000): each line on the layer of its name (what a layer's name cannot hold becomes an underscore), an
-/// LWPOLYLINE if all lie in the plane z = 0, else a POLYLINE in space.
+/// DXF (AutoCAD 2000): each line on the layer of its name (what a layer's name cannot hold becomes
+/// an underscore), an LWPOLYLINE if all lie in the plane z = 0, else a POLYLINE in space.
 void write_lines_dxf(const std::filesystem::path& path, std::span<const SheetLine> lines,
                      LengthUnit unit = LengthUnit::mm);
 

@@ -20,7 +20,8 @@ int vertex_of(const TextLines& lines, std::string_view corner, size_t vertices_s
     if (problem != std::errc() || number == 0 || (!rest.empty() && rest[0] != '/') ||
         rest.find_first_not_of("-/0123456789") != rest.npos)
         lines.fail(fmt::format("'{}' is not the corner of a face", corner.substr(0, 40)));
-    return number > 0 ? number - 1 : int(vertices_so_far) + number; // negative numbers count back from here
+    // negative numbers count back from here
+    return number > 0 ? number - 1 : int(vertices_so_far) + number;
 }
 
 bool has_repetition(std::vector<int> corners)

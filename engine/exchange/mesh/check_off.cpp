@@ -8,8 +8,8 @@
 namespace spia {
 namespace {
 
-/// Reads "OFF", also with the letters for texture, colours and normals, which follow the coordinates and are
-/// ignored.
+/// Reads "OFF", also with the letters for texture, colours and normals, which follow the
+/// coordinates and are ignored.
 void check_header(const TextLines& lines)
 {
     std::string_view head = lines.words()[0];

@@ -187,8 +187,8 @@ void require_room(const Header& header)
 {
     double least = 0;
     for (const Element& element : header.elements)
-        for (const Property& p :
-             element.properties) // a word and its blank, or the bytes of a value or of an empty list
+        for (const Property& p : element.properties) // a word and its blank, or the bytes of a
+                                                     // value or of an empty list
             least += double(element.count) *
                      (header.encoding == Header::text ? 2 : double(bytes(p.list ? p.length_type : p.type)));
     if (least > double(header.body.size()) + 1)
@@ -267,8 +267,9 @@ void read_face(Values& values, const Element& element, int i, Polygons& polygons
     }
 }
 
-/// Strips of triangles in one list, each ended by -1: every second triangle runs through its corners the other way about. A corner
-/// that is repeated only joins strips. [Turk, The PLY Polygon File Format, 1994; vtkPLYReader]
+/// Strips of triangles in one list, each ended by -1: every second triangle runs through its
+/// corners the other way about. A corner that is repeated only joins strips. [Turk, The PLY Polygon
+/// File Format, 1994; vtkPLYReader]
 void read_strips(Values& values, const Element& element, int i, Polygons& polygons)
 {
     for (const Property& property : element.properties) {

@@ -19,8 +19,8 @@ using Point = std::array<float, 3>;
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies in the file");
 
-/// OpenMesh counts values closer than the smallest normal number as equal, which is no equivalence among
-/// numbers that small. They are zero lengths in any unit.
+/// OpenMesh counts values closer than the smallest normal number as equal, which is no equivalence
+/// among numbers that small. They are zero lengths in any unit.
 float without_dust(float value) { return std::abs(value) < 1e-30f ? 0.0f : value; }
 
 bool corners_coincide(const std::array<Point, 3>& p) { return p[0] == p[1] || p[1] == p[2] || p[2] == p[0]; }
@@ -43,7 +43,8 @@ CheckedFile check_binary(std::string_view file, uint32_t claimed)
     result.content = file.substr(0, size_t(needed));
     for (int f = 0; f < result.faces; ++f) {
         char* facet =
-            result.content.data() + header_bytes + facet_bytes * size_t(f) + sizeof(Point); // behind the normal
+            // behind the normal
+            result.content.data() + header_bytes + facet_bytes * size_t(f) + sizeof(Point);
         std::array<Point, 3> corner;
         std::memcpy(&corner, facet, sizeof corner);
         for (Point& p : corner)
@@ -86,7 +87,8 @@ CheckedFile check_text(std::string_view file)
             corners = -1;
             result.content += "outer loop\n";
             for (const Point& p : corner)
-                result.content += fmt::format("vertex {} {} {}\n", p[0], p[1], p[2]); // shortest text of the same float
+                // shortest text of the same float
+                result.content += fmt::format("vertex {} {} {}\n", p[0], p[1], p[2]);
             if (corners_coincide(corner))
                 result.aside[result.faces];
             if (++result.faces > most_elements)

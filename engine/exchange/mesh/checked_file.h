@@ -7,11 +7,13 @@
 
 namespace spia {
 
-/// A mesh file that was gone through before OpenMesh reads it. Its readers (version 9.0) trust what they are given:
-/// they round all coordinates to single precision, skip lines they cannot read (which shifts the numbers of all later
-/// vertices), wait for ever at a cut-off PLY header, take PLY lists other than the corners and OFF colours for faces,
-/// open files that an OBJ names, and drop faces without a word. So each format is checked here word by word; OpenMesh
-/// gets the geometry alone in a plain form of the same format, and read_openmesh() compares what it makes of it.
+/// A mesh file that was gone through before OpenMesh reads it. Its readers (version 9.0) trust what
+/// they are given: they round all coordinates to single precision, skip lines they cannot read
+/// (which shifts the numbers of all later vertices), wait for ever at a cut-off PLY header, take
+/// PLY lists other than the corners and OFF colours for faces, open files that an OBJ names, and
+/// drop faces without a word. So each format is checked here word by word; OpenMesh gets the
+/// geometry alone in a plain form of the same format, and read_openmesh() compares what it makes of
+/// it.
 struct CheckedFile {
     std::string format;    ///< for people, e.g. "STL (binary)"
     std::string extension; ///< for OpenMesh, e.g. "stl"

@@ -111,7 +111,8 @@ GltfCompression take_compression(json& scene)
             constexpr size_t absent = (size_t(1) << 31) - 1;
             result.primitives[{int(m), int(p)}] = {int(whole(*said, "bufferView", absent)),
                                                    int(whole(*attributes, "POSITION", absent))};
-            primitives[p].erase("indices"); // their accessor has no bytes, which tinygltf does not accept
+            primitives[p].erase("indices"); // their accessor has no bytes, which tinygltf does not
+                                            // accept
         }
     }
     return result;

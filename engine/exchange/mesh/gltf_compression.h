@@ -30,8 +30,8 @@ struct GltfCompression {
     std::map<std::pair<int, int>, DracoPrimitive> primitives; ///< by mesh and primitive
 };
 
-/// Finds it. Buffers that only stand in for what is decoded get a byte of their own, so that they need no file, and what is
-/// compressed with Draco loses its indices, whose accessor has no bytes.
+/// Finds it. Buffers that only stand in for what is decoded get a byte of their own, so that they
+/// need no file, and what is compressed with Draco loses its indices, whose accessor has no bytes.
 /// @throws InputError for what cannot be decoded
 GltfCompression take_compression(nlohmann::json& scene);
 

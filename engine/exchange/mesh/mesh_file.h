@@ -16,8 +16,8 @@ struct MeshFile {
     std::vector<std::string> notes;
 };
 
-/// The ending of a file that parts are read from, in lower case and without its dot: of a mesh file stl, obj, ply, off, gltf or glb, else
-/// of a deck (is_deck()) or a CAD file (is_cad()).
+/// The ending of a file that parts are read from, in lower case and without its dot: of a mesh file
+/// stl, obj, ply, off, gltf or glb, else of a deck (is_deck()) or a CAD file (is_cad()).
 /// @throws InputError  it is none of these
 std::string part_extension(const std::filesystem::path& path);
 

@@ -29,9 +29,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// ---- before tinygltf sees the file ---- It copies nested values by recursion, holds a copy of the binary chunk for
-// every buffer that names none, trusts the indices of images, and opens any file that a buffer names. So it gets the
-// geometry alone, and reads files through us.
+// ---- before tinygltf sees the file ---- It copies nested values by recursion, holds a copy of the
+// binary chunk for every buffer that names none, trusts the indices of images, and opens any file
+// that a buffer names. So it gets the geometry alone, and reads files through us.
 
 struct Parts {
     std::string_view json, binary;
@@ -213,7 +213,8 @@ tinygltf::Model run_tinygltf(const fs::path& path, const Parts& parts, GltfCompr
         good =
             reader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(packed.data()),
                                         unsigned(packed.size()), folder.path.string());
-    } catch (const std::exception& other) { // tinygltf lets standard exceptions out, e.g. for an empty buffer
+    } catch (const std::exception& other) { // tinygltf lets standard exceptions out, e.g. for an
+                                            // empty buffer
         error = other.what();
     }
     std::replace(error.begin(), error.end(), '\n', ' ');
@@ -274,7 +275,8 @@ public:
         component_bytes_ = size_t(std::max(0, tinygltf::GetComponentSizeInBytes(uint32_t(component_type))));
         const size_t element = component_bytes_ * size_t(std::max(0, components)), size = buffer.data.size();
         stride_ = view.byteStride > 0 ? view.byteStride : element;
-        // Each step is a division or subtraction of what is already known to fit: nothing can overflow.
+        // Each step is a division or subtraction of what is already known to fit: nothing can
+        // overflow.
         const bool fits = element > 0 && count > 0 && count <= size_t(most_elements) && view.byteOffset <= size &&
                           view.byteLength <= size - view.byteOffset && offset <= view.byteLength &&
                           element <= view.byteLength - offset &&

@@ -18,7 +18,8 @@ namespace {
 
 using namespace OpenMesh;
 
-/// Takes vertices and faces as they come. A half-edge mesh would lose faces here that the doctor has to see.
+/// Takes vertices and faces as they come. A half-edge mesh would lose faces here that the doctor
+/// has to see.
 class SoupImporter : public IO::BaseImporter {
 public:
     PolygonSoup soup;

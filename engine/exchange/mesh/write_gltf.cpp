@@ -82,7 +82,8 @@ private:
     tinygltf::Model& model_;
 };
 
-/// Unit length in float32; where faces cancel there is no normal, and any direction shades as badly as another.
+/// Unit length in float32; where faces cancel there is no normal, and any direction shades as badly
+/// as another.
 Eigen::MatrixXf unit(const Eigen::Matrix3Xd& normals)
 {
     Eigen::MatrixXf result(3, normals.cols());
@@ -217,7 +218,8 @@ private:
             colour.col(v) = linear_rgb(viridis(range_.position(scene_.fields->thinning[v]))).cast<float>();
         shared["COLOR_0"] = buffer_.vertices(colour);
         const int faces = buffer_.indices(part.triangle);
-        const int sheet = material(model_, "sheet", {1, 1, 1}); // white: the vertex colours show as they are
+        // white: the vertex colours show as they are
+        const int sheet = material(model_, "sheet", {1, 1, 1});
 
         if (wanted_.part)
             add_part(shared, faces, sheet);

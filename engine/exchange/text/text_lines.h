@@ -7,7 +7,8 @@ namespace spia {
 /// The lines of a text, cut into words; says where it is when something is wrong.
 class TextLines {
 public:
-    /// @param comment  the rest of a line from this character on is ignored; 0: there are no comments
+    /// @param comment  the rest of a line from this character on is ignored; 0: there are no
+    /// comments
     /// @param joined   a backslash at the end joins a line with the next
     explicit TextLines(std::string_view text, char comment = '#', bool joined = false)
         : rest_(text), comment_(comment), joined_(joined)

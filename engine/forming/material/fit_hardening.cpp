@@ -96,7 +96,8 @@ VectorXd coefficients(const MatrixXd& columns, const VectorXd& stress)
     return best;
 }
 
-/// What is left of the stress for given numbers; those are kept in their ranges by a logistic map of free ones.
+/// What is left of the stress for given numbers; those are kept in their ranges by a logistic map
+/// of free ones.
 struct Residual : Eigen::DenseFunctor<double> {
     Residual(const Family& of, const VectorXd& x, const VectorXd& y)
         : DenseFunctor(int(of.range.size()), int(x.size())), family(of), strain(x), stress(y)

@@ -39,11 +39,13 @@ FlowStress evaluate(const Ludwik& law, double strain)
     return {law.sigma0_MPa + power.stress, power.slope, law.sigma0_MPa * strain + power.work};
 }
 
-/// The work has the lower incomplete gamma function: integral of exp(-c x^p) dx = gamma(1/p, c eps^p) / (p c^(1/p)).
+/// The work has the lower incomplete gamma function: integral of exp(-c x^p) dx = gamma(1/p, c
+/// eps^p) / (p c^(1/p)).
 FlowStress evaluate(const HockettSherby& law, double strain)
 {
     using namespace boost::math::policies;
-    using InDouble = policy<promote_double<false>>; // long double would be ten times slower for digits nobody needs
+    using InDouble = policy<promote_double<false>>; // long double would be ten times slower for
+                                                    // digits nobody needs
     if (strain <= 0)
         return {law.sigma0_MPa, law.p < 1 ? infinite : (law.sigma_sat_MPa - law.sigma0_MPa) * law.c, 0};
     const double range = law.sigma_sat_MPa - law.sigma0_MPa, x = law.c * std::pow(strain, law.p), decay = std::exp(-x);
@@ -166,8 +168,8 @@ double uniform_strain(const Hardening& law, double at_most)
 StressCurve::StressCurve(const Hardening& law, double young_MPa, const Options& options)
     : law_(law), young_(young_MPa), trusted_(options.trusted_strain), rate_(options.continuation_rate)
 {
-    // Every law is concave, so sigma_Y(eps) - E eps falls through zero once; bisection needs no derivative at zero,
-    // where that of Hollomon, Ludwik and Hockett-Sherby is infinite.
+    // Every law is concave, so sigma_Y(eps) - E eps falls through zero once; bisection needs no
+    // derivative at zero, where that of Hollomon, Ludwik and Hockett-Sherby is infinite.
     double low = 0, high = 1;
     for (int i = 0; i < 200; ++i) {
         const double middle = 0.5 * (low + high);

@@ -9,10 +9,13 @@
 
 namespace spia {
 
-/// What is known of where a grade begins to neck, for forming_limits(); without it the metal and its hardening law decide.
+/// What is known of where a grade begins to neck, for forming_limits(); without it the metal and
+/// its hardening law decide.
 struct GradeLimit {
-    std::optional<double> n;          ///< for the curve of Keeler-Brazier; else the uniform strain of the law
-    std::vector<double> minor, major; ///< points of a measured curve, engineering strains, minor rising; empty: none
+    std::optional<double> n;          ///< for the curve of Keeler-Brazier; else the uniform strain
+                                      ///< of the law
+    std::vector<double> minor, major; ///< points of a measured curve, engineering strains, minor
+                                      ///< rising; empty: none
     friend bool operator==(const GradeLimit&, const GradeLimit&) = default;
 };
 
@@ -23,11 +26,13 @@ struct Material {
     double poisson = 0;
     double density_kg_m3 = 0;
     Hardening hardening;
-    double r0 = 1, r45 = 1, r90 = 1; ///< Lankford coefficients along, at 45 degrees and across the rolling direction
+    double r0 = 1, r45 = 1, r90 = 1; ///< Lankford coefficients along, at 45 degrees and across the
+                                     ///< rolling direction
     std::string source;              ///< where the values come from; may be empty for a user's file
     GradeLimit limit = {};
 
-    /// Mean normal anisotropy (r0 + 2 r45 + r90) / 4, the r of the plane-stress law that the solver uses.
+    /// Mean normal anisotropy (r0 + 2 r45 + r90) / 4, the r of the plane-stress law that the solver
+    /// uses.
     double normal_anisotropy() const { return (r0 + 2 * r45 + r90) / 4; }
     friend bool operator==(const Material&, const Material&) = default;
 };

@@ -27,8 +27,10 @@ struct MaterialFit {
     Material material;
 };
 
-/// Makes a material of a tensile test. Its source tells the table, the law and the error of the fit.
-/// @throws InputError if the table cannot be read or is no tensile test, or the wanted law does not fit
+/// Makes a material of a tensile test. Its source tells the table, the law and the error of the
+/// fit.
+/// @throws InputError if the table cannot be read or is no tensile test, or the wanted law does not
+/// fit
 MaterialFit fit_material(const std::filesystem::path& table, const MaterialFitOptions& options);
 
 } // namespace spia

@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The letters and digits alone, since "AA6016-T4" is meant to be as close to "aa6016_t4" as can be.
+/// The letters and digits alone, since "AA6016-T4" is meant to be as close to "aa6016_t4" as can
+/// be.
 std::string squeezed(const std::string& text)
 {
     std::string result;
@@ -25,9 +26,9 @@ std::string squeezed(const std::string& text)
     return result;
 }
 
-/// How far what was typed is from a label, by the letters to be inserted, removed or replaced (Levenshtein):
-/// first to make it a part of the label, since a whole word like "copper" says more than its length, then to
-/// make it the label.
+/// How far what was typed is from a label, by the letters to be inserted, removed or replaced
+/// (Levenshtein): first to make it a part of the label, since a whole word like "copper" says more
+/// than its length, then to make it the label.
 std::pair<size_t, size_t> distance(const std::string& typed, const std::string& label)
 {
     const auto edits = [&](bool part) {
@@ -124,7 +125,8 @@ Material find_material(const std::string& name_or_file, const fs::path& folder)
         return read_material(own); // even if the folder is missing
     const std::string wanted = lower_case(name_or_file);
     const std::vector<fs::path> files = material_files(folder);
-    // By the stem first, without the other files: a spoilt one must not keep the user from a good one.
+    // By the stem first, without the other files: a spoilt one must not keep the user from a good
+    // one.
     for (const fs::path& file : files)
         if (lower_case(file.stem().string()) == wanted)
             return read_material(file);

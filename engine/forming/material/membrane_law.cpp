@@ -6,7 +6,8 @@
 namespace spia {
 namespace {
 
-/// Takes strains (11, 22, 2 x 12) from axes that are turned by a rotation to the axes it is given in.
+/// Takes strains (11, 22, 2 x 12) from axes that are turned by a rotation to the axes it is given
+/// in.
 Eigen::Matrix3d strain_rotation(const Eigen::Matrix2d& turn)
 {
     const double c = turn(0, 0), s = turn(1, 0);
@@ -41,7 +42,8 @@ MembraneLaw::MembraneLaw(const Material& material, const StressCurve::Options& o
 MembraneLaw::Flow MembraneLaw::flow(double equivalent_strain) const
 {
     const FlowStress at = curve_(equivalent_strain);
-    // On Hooke's line the secant is Young's modulus whatever the strain; dividing zero by zero is avoided there.
+    // On Hooke's line the secant is Young's modulus whatever the strain; dividing zero by zero is
+    // avoided there.
     const bool elastic = equivalent_strain < 0.5 * curve_.yield_strain();
     return {at.stress, elastic ? young_ : at.stress / equivalent_strain, at.slope, at.work, elastic};
 }

@@ -7,7 +7,8 @@
 
 namespace spia {
 
-/// Principal stresses and everything Newton needs of the membrane law at given principal logarithmic strains.
+/// Principal stresses and everything Newton needs of the membrane law at given principal
+/// logarithmic strains.
 struct PlaneStress {
     double equivalent_strain;
     double equivalent_stress; ///< MPa
@@ -16,8 +17,8 @@ struct PlaneStress {
     double work;              ///< MPa, integral of sigma_eq d eps_eq
 };
 
-/// Stress in the principal axes of the strain, where a sheet that is not isotropic in its plane has shear stress too.
-/// Components 11, 22, 12; strains with the engineering shear 2 eps_12.
+/// Stress in the principal axes of the strain, where a sheet that is not isotropic in its plane has
+/// shear stress too. Components 11, 22, 12; strains with the engineering shear 2 eps_12.
 struct AxisStress {
     double equivalent_strain;
     double equivalent_stress; ///< MPa
@@ -29,7 +30,8 @@ struct AxisStress {
     double work;              ///< MPa, integral of sigma_eq d eps_eq
 };
 
-/// Hill 1948, plane stress, incompressible, total (Hencky) theory. In the sheet's material axes (1 rolling, 2 across),
+/// Hill 1948, plane stress, incompressible, total (Hencky) theory. In the sheet's material axes (1
+/// rolling, 2 across),
 ///   sigma_eq^2 = (G+H) sigma_11^2 - 2 H sigma_11 sigma_22 + (F+H) sigma_22^2 + 2 N sigma_12^2,
 ///   G = 1/(1+r0),  H = r0/(1+r0),  F = r0/(r90 (1+r0)),  N = (r0+r90)(1+2 r45) / (2 r90 (1+r0))    [Hill 1948]
 /// and the strains follow the normal to it, eps = eps_eq/sigma_eq M sigma with M the matrix of that form, so that
@@ -40,7 +42,8 @@ struct AxisStress {
 ///   sigma_k = (sigma_eq/eps_eq) (1+r)^2/(1+2r) (eps_k + r/(1+r) eps_l)
 class MembraneLaw {
 public:
-    /// @param rolling radians from the blank's x axis to the rolling direction; not given: normal anisotropy
+    /// @param rolling radians from the blank's x axis to the rolling direction; not given: normal
+    /// anisotropy
     MembraneLaw(const Material& material, const StressCurve::Options& options = {}, std::optional<double> rolling = {});
 
     /// The law with normal anisotropy, whatever the rolling direction.

@@ -127,7 +127,8 @@ private:
         return rows;
     }
 
-    /// Rows whose strain exceeds all before: extensometers shiver. A test that goes back is something else.
+    /// Rows whose strain exceeds all before: extensometers shiver. A test that goes back is
+    /// something else.
     Rows rising(const Rows& rows)
     {
         Rows kept;
@@ -156,7 +157,8 @@ private:
         return kept;
     }
 
-    /// The row of the greatest force, of a running mean so that noise on its flat top does not choose.
+    /// The row of the greatest force, of a running mean so that noise on its flat top does not
+    /// choose.
     size_t greatest_force(const Rows& rows)
     {
         const size_t half = rows.size() / 100;
@@ -208,7 +210,8 @@ private:
         return Line{es / ee, e - s * ee / es};
     }
 
-    /// Engineering stress where the curve leaves the line by 0.2 % of strain; the last one if it does not.
+    /// Engineering stress where the curve leaves the line by 0.2 % of strain; the last one if it
+    /// does not.
     static double proof_stress(const Rows& rows, size_t neck, const Line& line)
     {
         for (size_t i = 0; i <= neck; ++i)
@@ -219,7 +222,8 @@ private:
 
     static std::optional<Line> elastic_line(const Rows& rows, size_t neck)
     {
-        for (const double share : {0.5, 0.25, 0.12}) { // of the strength: a first guess of the yield stress
+        for (const double share : {0.5, 0.25, 0.12}) { // of the strength: a first guess of the
+                                                       // yield stress
             double proof = share * rows.stress[neck];
             std::optional<Line> line;
             for (int pass = 0; pass < 4; ++pass) {
@@ -235,7 +239,8 @@ private:
         return {};
     }
 
-    /// Where a modulus was given, what the line is softer than it is the machine's compliance, and taken off.
+    /// Where a modulus was given, what the line is softer than it is the machine's compliance, and
+    /// taken off.
     void cut(const Rows& rows, size_t neck, const Line& elastic)
     {
         out_.proof_stress_MPa = proof_stress(rows, neck, elastic);

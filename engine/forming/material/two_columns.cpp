@@ -75,7 +75,8 @@ std::optional<double> number(std::string_view field, char separator)
     std::string text(field);
     if (separator != ',' && std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == text.npos)
         std::replace(text.begin(), text.end(), ',', '.');
-    const size_t plus = text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0; // from_chars does not know it
+    // from_chars does not know it
+    const size_t plus = text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0;
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data() + plus, text.data() + text.size(), value);
     if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(value))

@@ -13,7 +13,8 @@ struct ContactPressure {
 /// @throws InputError if a force is given and the faces are not seen along the direction
 ContactPressure contact_pressure(const ContactRegion& region, const Eigen::Matrix3Xd& area_vector,
                                  const Eigen::Vector3d& direction);
-/// Likewise on a tool that is no plane: seen along a unit vector of its own for each of the part's faces.
+/// Likewise on a tool that is no plane: seen along a unit vector of its own for each of the part's
+/// faces.
 ContactPressure contact_pressure(const ContactRegion& region, const Eigen::Matrix3Xd& area_vector,
                                  const Eigen::Matrix3Xd& square_to_tool);
 

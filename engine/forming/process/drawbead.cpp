@@ -10,22 +10,24 @@
 namespace spia {
 namespace {
 
-/// Stress of plane strain over the equivalent one, and equivalent strain over that along the sheet [Hill 1948].
+/// Stress of plane strain over the equivalent one, and equivalent strain over that along the sheet
+/// [Hill 1948].
 double plane_strain_factor(const Material& material)
 {
     const double r = material.normal_anisotropy();
     return (1 + r) / std::sqrt(1 + 2 * r);
 }
 
-/// Curvature up to which a sheet bends elastically in plane strain (1/mm): its outer fibre yields at t/2 times it.
+/// Curvature up to which a sheet bends elastically in plane strain (1/mm): its outer fibre yields
+/// at t/2 times it.
 double elastic_curvature(const Material& material, double thickness)
 {
     const double yield = StressCurve(material.hardening, material.young_MPa, {}).yield_strain();
     return 2 * plane_strain_factor(material) * yield * (1 - material.poisson * material.poisson) / thickness;
 }
 
-/// Work per length and width of bending a sheet in plane strain from flat to a curvature (N/mm): the work of the flow curve
-/// over the thickness, with the strain y / rho of its fibres.
+/// Work per length and width of bending a sheet in plane strain from flat to a curvature (N/mm):
+/// the work of the flow curve over the thickness, with the strain y / rho of its fibres.
 double bending_work(const Material& material, double thickness, double curvature)
 {
     if (!(curvature > 0))
@@ -62,14 +64,16 @@ double drawbead_force(const BeadShape& bead, const Material& material, double th
         throw InputError(fmt::format("a drawbead of radius {} mm, shoulder radius {} mm, depth {} mm, friction {} in a "
                                      "sheet of {} mm: lengths must be positive, depth and friction not negative",
                                      bead.radius, bead.shoulder_radius, bead.depth, bead.friction, thickness));
-    // The sheet's middle runs on arcs of these radii; they turn it by the same angle, at most a right angle.
+    // The sheet's middle runs on arcs of these radii; they turn it by the same angle, at most a
+    // right angle.
     const double on_bead = bead.radius + thickness / 2, on_shoulder = bead.shoulder_radius + thickness / 2;
     const double angle = std::acos(std::max(0.0, 1 - bead.depth / (on_bead + on_shoulder)));
     if (angle == 0)
         return 0;
-    // Before it lies on the tools the sheet spans crest and shoulder, which are on_bead + on_shoulder apart, as a beam
-    // that stays level at both ends and is pushed aside by the depth d at one: w'' = 6 d / span^2 there, zero midway.
-    // What of it is within the elastic limit springs back and costs nothing; it is never sharper than the tool.
+    // Before it lies on the tools the sheet spans crest and shoulder, which are on_bead +
+    // on_shoulder apart, as a beam that stays level at both ends and is pushed aside by the depth d
+    // at one: w'' = 6 d / span^2 there, zero midway. What of it is within the elastic limit springs
+    // back and costs nothing; it is never sharper than the tool.
     const double span = on_bead + on_shoulder,
                  wave = 6 * bead.depth / (span * span) - elastic_curvature(material, thickness);
     double force = 0;

@@ -11,7 +11,8 @@ struct HeldEdge {
     int face;     ///< on it
 };
 
-/// The outer outline without the edges on which the other side of a seam lies: these are no edge of the part.
+/// The outer outline without the edges on which the other side of a seam lies: these are no edge of
+/// the part.
 std::vector<HeldEdge> held_edges(const TriMesh& part);
 
 } // namespace spia

@@ -41,7 +41,8 @@ ClosestPoint LineOnPart::within(const std::string& what, const Eigen::Vector3d& 
     const ClosestPoint found = search_.nearest(point);
     if (found.distance > reach)
         refuse(found.distance);
-    if (found.distance > reach_) { // over a bulge the way to the part is square to it, beyond its edge it is not
+    if (found.distance > reach_) { // over a bulge the way to the part is square to it, beyond its
+                                   // edge it is not
         const Eigen::Matrix3d corner = part_.position(Eigen::all, part_.triangle.col(found.face));
         const Eigen::Vector3d normal =
             (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).normalized();

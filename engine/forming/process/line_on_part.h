@@ -6,18 +6,21 @@
 
 namespace spia {
 
-/// A place of a polyline on the part, with the length of line it stands for and the line's direction.
+/// A place of a polyline on the part, with the length of line it stands for and the line's
+/// direction.
 struct LinePlace {
     ClosestPoint on_part;
     double length; ///< mm
     Eigen::Vector3d along;
 };
 
-/// Lays polylines on a part. What is given must lie on it within a half percent of its diagonal; between two such places the
-/// straight line may bridge a bulge four times as high, but nothing beyond the part's edge.
+/// Lays polylines on a part. What is given must lie on it within a half percent of its diagonal;
+/// between two such places the straight line may bridge a bulge four times as high, but nothing
+/// beyond the part's edge.
 class LineOnPart {
 public:
-    /// @param spacing of places, mm; not above 0: close enough that no face a line crosses is left out
+    /// @param spacing of places, mm; not above 0: close enough that no face a line crosses is left
+    /// out
     explicit LineOnPart(const TriMesh& part, double spacing = 0);
 
     /// @param what names the line in messages

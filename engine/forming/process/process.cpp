@@ -165,7 +165,8 @@ double lock_force(const Material& material, double thickness)
 {
     const double r = material.normal_anisotropy(), factor = (1 + r) / std::sqrt(1 + 2 * r);
     double greatest = 0;
-    for (int k = 1; k <= 1000; ++k) { // of the force over the strain along the strip: one maximum, flat there
+    for (int k = 1; k <= 1000; ++k) { // of the force over the strain along the strip: one maximum,
+                                      // flat there
         const double strain = 1e-3 * k;
         greatest =
             std::max(greatest, factor * flow_stress(material.hardening, factor * strain).stress * std::exp(-strain));

@@ -9,10 +9,10 @@
 
 namespace spia {
 
-/// Tools press on these faces and rub against the slip: a binder, which rests, on both sides of the sheet; a pad or the punch,
-/// which travel with the part's middle, on one.
-/// The traction is sides * friction * pressure [Coulomb]; given as a force, the pressure is that force over the faces' area
-/// seen along the stamping direction.
+/// Tools press on these faces and rub against the slip: a binder, which rests, on both sides of the
+/// sheet; a pad or the punch, which travel with the part's middle, on one.
+/// The traction is sides * friction * pressure [Coulomb]; given as a force, the pressure is that
+/// force over the faces' area seen along the stamping direction.
 struct ContactRegion {
     std::string name;
     std::vector<int> faces;             ///< each once
@@ -31,7 +31,8 @@ struct Drawbead {
     friend bool operator==(const Drawbead&, const Drawbead&) = default;
 };
 
-/// Pins: the vertices of the part nearest to these places do not move in the plane of the blank when the sheet is formed.
+/// Pins: the vertices of the part nearest to these places do not move in the plane of the blank
+/// when the sheet is formed.
 struct Pilot {
     std::string name;
     std::vector<Eigen::Vector3d> line; ///< mm, on the part: one place, or a curve
@@ -51,7 +52,8 @@ struct TailoredPiece {
 struct ProcessConditions {
     std::vector<ContactRegion> contact; ///< where two overlap their tractions add up
     std::vector<Drawbead> drawbeads;
-    double edge_restraint = 0; ///< of the outer edge, as a share of the lock force (see lock_force()): 0 free, 1 locked
+    double edge_restraint = 0; ///< of the outer edge, as a share of the lock force (see
+                               ///< lock_force()): 0 free, 1 locked
     std::vector<Pilot> pilots;
     std::vector<TailoredPiece> tailored; ///< where two overlap the later one counts
     std::optional<Eigen::Vector3d>
@@ -60,12 +62,13 @@ struct ProcessConditions {
     friend bool operator==(const ProcessConditions&, const ProcessConditions&) = default;
 };
 
-/// Force per length (N/mm) at which a strip that cannot narrow, as the sheet between tools, would tear: the greatest
-/// h sigma_1 in plane strain. What a bead takes at most.
+/// Force per length (N/mm) at which a strip that cannot narrow, as the sheet between tools, would
+/// tear: the greatest h sigma_1 in plane strain. What a bead takes at most.
 double lock_force(const Material& material, double thickness);
 
 /// @param what the region in words, for the message
-/// @throws InputError if a face does not exist or a value is out of its bounds: names the region and the fault
+/// @throws InputError if a face does not exist or a value is out of its bounds: names the region
+/// and the fault
 void require_contact(const ContactRegion& region, const TriMesh& part, const std::string& what);
 
 /// Whether some tool pulls or presses on the part as a whole, or holds it.
@@ -79,7 +82,8 @@ Sheet sheet_of(const Material& material, double thickness, const StressCurve::Op
 /// The forces of the process on the vertices and faces of a part.
 /// @param plane     axes of the blank in space
 /// @param origin    its (0, 0) in space
-/// @throws InputError names the region, bead or pin and what is wrong with it: a face that does not exist, a value that
+/// @throws InputError names the region, bead or pin and what is wrong with it: a face that does not
+/// exist, a value that
 ///                    is not positive, a line that does not lie on the part
 ExternalForces external_forces(const ProcessConditions& process, const TriMesh& part, const Material& material,
                                double thickness, const Eigen::Matrix<double, 3, 2>& plane,

@@ -4,8 +4,9 @@
 
 namespace spia {
 
-/// The smallest rotation that takes unit vector `from` to unit vector `to`, applied to v. Where they are opposite
-/// (a sheet folded flat on itself) the turn is not unique; the guarded divisor then picks none in particular.
+/// The smallest rotation that takes unit vector `from` to unit vector `to`, applied to v. Where
+/// they are opposite (a sheet folded flat on itself) the turn is not unique; the guarded divisor
+/// then picks none in particular.
 inline Eigen::Vector3d smallest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& v)
 {
     const Eigen::Vector3d w = from.cross(to);

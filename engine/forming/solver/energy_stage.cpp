@@ -99,7 +99,8 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         return energy(triangle, element, sheet, at) + springs.energy(at);
     };
     double E = total(X);
-    // What the sheet would store at the yield point all over: the scale below which an energy is nothing.
+    // What the sheet would store at the yield point all over: the scale below which an energy is
+    // nothing.
     double yield_energy = 0;
     for (int f = 0; f < faces; ++f) {
         const StressCurve& curve = sheet.law_of(f).curve();
@@ -147,7 +148,8 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         for (size_t v = 0; v < fixed.size(); ++v)
             if (fixed[v])
                 matrix.add_to_diagonal(int(v), mean_stiffness * Eigen::Matrix2d::Identity());
-        // The blank may be moved freely; a shift far below the stiffness fixes it without being felt.
+        // The blank may be moved freely; a shift far below the stiffness fixes it without being
+        // felt.
         const double shift = 1e-12 * matrix.diagonal().mean();
         for (int i = 0; i < matrix.size(); ++i)
             matrix.add_to_diagonal(i, shift);
@@ -164,7 +166,8 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
             options.watch(X, result.steps.back());
         if (decrement <= options.decrement * (E + 1e-6 * yield_energy)) {
             result.ended = Ended::converged;
-            if (decrement > 0 && largest_step(triangle, X, direction) > 2) { // the last step costs nothing more
+            // the last step costs nothing more
+            if (decrement > 0 && largest_step(triangle, X, direction) > 2) {
                 const Eigen::Matrix2Xd trial = X + direction;
                 if (total(trial) <= E)
                     X = trial;

@@ -12,9 +12,9 @@
 namespace spia {
 namespace {
 
-/// How far the blank is, in the mean, moved and turned from where it lies nearest under the part (Kabsch's condition for the
-/// rotation, which is linear): orthonormal rows with area weights. One held vertex leaves the rotation only, two leave
-/// nothing to be fixed.
+/// How far the blank is, in the mean, moved and turned from where it lies nearest under the part
+/// (Kabsch's condition for the rotation, which is linear): orthonormal rows with area weights. One
+/// held vertex leaves the rotation only, two leave nothing to be fixed.
 class RigidMotion {
 public:
     RigidMotion(const TriMesh& part, const std::vector<Element>& element, const ExternalForces& external)
@@ -34,7 +34,8 @@ public:
     }
 
     const Eigen::MatrixXd& rows() const { return rows_; }
-    /// Force and, about the centre, moment of the nodal forces that the multipliers stand for. N, N, N mm
+    /// Force and, about the centre, moment of the nodal forces that the multipliers stand for. N,
+    /// N, N mm
     Eigen::Vector3d resultant(const Eigen::VectorXd& multiplier) const
     {
         const Eigen::VectorXd force = rows_ * multiplier;
@@ -48,7 +49,8 @@ public:
     Eigen::VectorXd moved(const Eigen::Matrix2Xd& X) const { return rows_.transpose() * (X - below_).reshaped(); }
 
 private:
-    Eigen::Matrix2Xd below_; ///< the part seen along the stamping direction, in the plane of the blank
+    Eigen::Matrix2Xd below_; ///< the part seen along the stamping direction, in the plane of the
+                             ///< blank
     Eigen::Vector2d centre_;
     Eigen::MatrixXd rows_;
 };
@@ -89,7 +91,8 @@ public:
             }
             if (step == options_.most_steps)
                 break;
-            // A short step tells that the expected stresses lead astray: begin anew with the ones that are there.
+            // A short step tells that the expected stresses lead astray: begin anew with the ones
+            // that are there.
             if (result.steps.size() > 1 && result.steps[result.steps.size() - 2].step_length < short_step)
                 work_.stabilize(X);
             if (no_progress(result.steps, size_t(options_.stall_steps)) || !advance(X, R, result.steps, here)) {
@@ -114,7 +117,8 @@ private:
         return work_.residual(X) + rigid_.rows() * (spring_ * rigid_.moved(X));
     }
 
-    /// The residual has not halved in a while, or steps have become tiny: most often a triangle is about to turn over.
+    /// The residual has not halved in a while, or steps have become tiny: most often a triangle is
+    /// about to turn over.
     static bool no_progress(const std::vector<NewtonStep>& steps, size_t stall_steps)
     {
         constexpr size_t few = 6;
@@ -151,10 +155,10 @@ private:
         return false;
     }
 
-    /// Whether a step from R to `then` is one forward. A few triangles with a stress turned round can carry more than all of |R|
-    /// while the blank as a whole comes nearer: then the work of R on the step that a linear sheet would answer with
-    /// (Deuflhard's natural level in the norm of energy) falls, and |R| may rise up to twice the least so far.
-    /// [Deuflhard 2004, sec. 3.3]
+    /// Whether a step from R to `then` is one forward. A few triangles with a stress turned round
+    /// can carry more than all of |R| while the blank as a whole comes nearer: then the work of R
+    /// on the step that a linear sheet would answer with (Deuflhard's natural level in the norm of
+    /// energy) falls, and |R| may rise up to twice the least so far. [Deuflhard 2004, sec. 3.3]
     bool descends(const Eigen::VectorXd& R, const Eigen::VectorXd& then, double length, double least) const
     {
         constexpr double most_rise = 2, fall = 0.8;
@@ -164,8 +168,8 @@ private:
                then.dot(cholesky_.precondition(then)) <= fall * fall * R.dot(cholesky_.precondition(R));
     }
 
-    /// To which part of R the linear system is solved: as exactly as the decrease of the residual deserves [Eisenstat and
-    /// Walker 1996, choice 2], near the end as exactly as the end asks for.
+    /// To which part of R the linear system is solved: as exactly as the decrease of the residual
+    /// deserves [Eisenstat and Walker 1996, choice 2], near the end as exactly as the end asks for.
     double forcing_term(const std::vector<NewtonStep>& steps) const
     {
         if (steps.size() < 2)
@@ -185,16 +189,18 @@ private:
         return steps.size() < 2 ? 1 : steps.back().residual / steps[steps.size() - 2].residual;
     }
 
-    /// Solves (K + k C C^T) d = -R, the tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
-    /// factor of the tangent's definite neighbour preconditions it, near the solution the one of the step before; where
-    /// that is not enough, a sparse LU takes its place. None: the tangent is singular, or an LU is not allowed.
+    /// Solves (K + k C C^T) d = -R, the tangent with the three soft springs on the rigid motion, by
+    /// GMRES. A Cholesky factor of the tangent's definite neighbour preconditions it, near the
+    /// solution the one of the step before; where that is not enough, a sparse LU takes its place.
+    /// None: the tangent is singular, or an LU is not allowed.
     std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R,
                                                 const std::vector<NewtonStep>& steps, const Step& here)
     {
         constexpr int most_iterations = 60, most_by_old_factor = 20;
         constexpr double near_solution = 0.3;
         const double tolerance = forcing_term(steps);
-        // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
+        // Far from the solution a rough direction is worth more than an exact one that costs ten
+        // times as much.
         const double rough = tolerance < worst_forcing ? 0 : 0.3;
         const LinearMap A = [&](const Eigen::VectorXd& x) {
             here.checkpoint();
@@ -239,8 +245,8 @@ private:
     }
 
     static constexpr double worst_forcing = 0.1;
-    // Where a triangle in the way leaves room for a short step only, a direction of few iterations, which is smooth, goes
-    // round it.
+    // Where a triangle in the way leaves room for a short step only, a direction of few iterations,
+    // which is smooth, goes round it.
     static constexpr double short_step = 0.1, rough_forcing = 0.5;
 
     const Eigen::Matrix3Xi& triangle_;

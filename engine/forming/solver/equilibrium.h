@@ -22,16 +22,18 @@ struct EquilibriumResult {
         Eigen::Vector3d::Zero(); ///< of the forces that hold the blank: N, N, N mm about its centre
 };
 
-/// Solves the virtual-work equations by Newton's method with the stabilized tangent (expected_stress.h) and a line search on
+/// Solves the virtual-work equations by Newton's method with the stabilized tangent
+/// (expected_stress.h) and a line search on
 /// |R| or its natural level. No step turns a triangle over. The mean translation and rotation of the blank are held by three multipliers with area weights instead
 /// of pinned nodes, so no node carries their resultant alone.
 EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work,
                                     const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
                                     const EquilibriumOptions& options, const Progress& progress);
 
-/// For meshes that are too coarse or too crumpled for the equations as they are: solves them with all vertices relaxed,
-/// from there without, and where that fails with ever more vertices relaxed: those of the largest mismatch and those that
-/// carried the residual of the failed attempt. At the end `work` holds the vertices that had to be.
+/// For meshes that are too coarse or too crumpled for the equations as they are: solves them with
+/// all vertices relaxed, from there without, and where that fails with ever more vertices relaxed:
+/// those of the largest mismatch and those that carried the residual of the failed attempt. At the
+/// end `work` holds the vertices that had to be.
 EquilibriumResult solve_relaxed_equilibrium(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work,
                                             const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
                                             const EquilibriumOptions& options, const Progress& progress);

@@ -16,8 +16,8 @@ ElementStress in_axes(const Eigen::Matrix2d& axes, const ElementStress& stress)
             c * s * (stress[1] - stress[0]) + (c * c - s * s) * stress[2]};
 }
 
-/// The direction of the expected stress in the principal axes: at most 1 long in the norm of the yield surface, and
-/// shorter where less stress is expected than the curve has.
+/// The direction of the expected stress in the principal axes: at most 1 long in the norm of the
+/// yield surface, and shorter where less stress is expected than the curve has.
 Eigen::Vector3d direction(const AxisStress& p, const Svd2& d, const ElementStress& expected)
 {
     const Eigen::Vector3d t = in_axes(d.V, expected);

@@ -25,8 +25,9 @@ Eigen::Matrix2Xd projection(const TriMesh& part, const Eigen::Vector3d& directio
     return result;
 }
 
-/// The smallest eigenvector of the conformal energy sum A (|G|^2 / 2 - det G) against the mass of the boundary, found
-/// by inverse iteration on one factor. None: triangles have flipped, or are too thin.
+/// The smallest eigenvector of the conformal energy sum A (|G|^2 / 2 - det G) against the mass of
+/// the boundary, found by inverse iteration on one factor. None: triangles have flipped, or are too
+/// thin.
 std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector<Element>& element,
                                           const Eigen::Matrix2Xd& first, BlockMatrix& matrix, Cholesky& cholesky,
                                           const Progress& progress)
@@ -60,8 +61,9 @@ std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector
             mass[a] += half;
             mass[b] += half;
         }
-    // The map is conformal inside after the first iteration; the others turn its border to the eigenvector, slowly where
-    // several are near each other. A start needs no more than a few, and the last of them that is one-to-one.
+    // The map is conformal inside after the first iteration; the others turn its border to the
+    // eigenvector, slowly where several are near each other. A start needs no more than a few, and
+    // the last of them that is one-to-one.
     std::optional<Eigen::Matrix2Xd> best;
     Eigen::Matrix2Xd X = first;
     for (int iteration = 0; iteration < (best ? few_iterations : most_iterations); ++iteration) {
@@ -76,11 +78,13 @@ std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector
     return best;
 }
 
-/// Mean value weights are positive [Floater 2003], so with a convex border and the holes closed no triangle flips.
+/// Mean value weights are positive [Floater 2003], so with a convex border and the holes closed no
+/// triangle flips.
 Eigen::Matrix2Xd harmonic(const TriMesh& part)
 {
     const auto loops = boundary_loops(part);
-    const int n = part.vertices(), holes = int(loops.size()) - 1, all = n + holes; // one more vertex in each hole
+    // one more vertex in each hole
+    const int n = part.vertices(), holes = int(loops.size()) - 1, all = n + holes;
     Eigen::Matrix2Xd X = Eigen::Matrix2Xd::Zero(2, all);
     std::vector<char> fixed(size_t(all), 0);
     double length = 0, along = 0;
@@ -104,12 +108,14 @@ Eigen::Matrix2Xd harmonic(const TriMesh& part)
             const Eigen::Vector3d ab = part.position.col(b) - part.position.col(a);
             const Eigen::Vector3d ac = part.position.col(c) - part.position.col(a);
             const double half =
-                0.5 * std::atan2(ab.cross(ac).norm(), ab.dot(ac)); // tan(alpha/2) of the mean value weight
+                // tan(alpha/2) of the mean value weight
+                0.5 * std::atan2(ab.cross(ac).norm(), ab.dot(ac));
             weight.emplace_back(a, b, std::tan(half) / ab.norm());
             weight.emplace_back(a, c, std::tan(half) / ac.norm());
         }
     for (int h = 1; h <= holes; ++h)
-        for (int v : loops[size_t(h)]) { // a fan to the middle of the hole, combinatorial: any positive weight will do
+        for (int v : loops[size_t(h)]) { // a fan to the middle of the hole, combinatorial: any
+                                         // positive weight will do
             const double w = 2.0 / length * double(loops[0].size());
             weight.emplace_back(v, n + h - 1, w);
             weight.emplace_back(n + h - 1, v, w);
@@ -148,7 +154,8 @@ Eigen::Matrix2Xd harmonic(const TriMesh& part)
     return X.leftCols(n);
 }
 
-/// Uniform scale after which the area-weighted mean of ln(det G) is zero: as much thinning as thickening.
+/// Uniform scale after which the area-weighted mean of ln(det G) is zero: as much thinning as
+/// thickening.
 void scale_to_part(const TriMesh& part, const std::vector<Element>& element, Eigen::Matrix2Xd& X)
 {
     double sum = 0, area = 0;

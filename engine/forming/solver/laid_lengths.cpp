@@ -8,7 +8,8 @@
 namespace spia {
 namespace {
 
-/// Turned about its middle so that the sum of squares to the other's corners, taken from their middle, is least. [Kabsch 1976 in the plane]
+/// Turned about its middle so that the sum of squares to the other's corners, taken from their
+/// middle, is least. [Kabsch 1976 in the plane]
 Eigen::Matrix<double, 2, 3> turned_onto(const Eigen::Matrix<double, 2, 3>& other, const Eigen::Matrix<double, 2, 3>& x)
 {
     const Eigen::Matrix<double, 2, 3> from = x.colwise() - x.rowwise().mean(),

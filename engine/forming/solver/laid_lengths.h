@@ -7,8 +7,8 @@
 
 namespace spia {
 
-/// Faces whose material has other lengths than their triangles: those of the arcs that they are chords of, or of the neutral fibre of a
-/// bend.
+/// Faces whose material has other lengths than their triangles: those of the arcs that they are
+/// chords of, or of the neutral fibre of a bend.
 struct LaidLengths {
     std::vector<int> face; ///< ascending
     std::vector<Eigen::Matrix<double, 2, 3>>
@@ -17,8 +17,8 @@ struct LaidLengths {
     bool empty() const { return face.empty(); }
 };
 
-/// elements() with these lengths: their gradients and areas are those of the laid triangles, turned to lie on the part's as nearly as
-/// they can.
+/// elements() with these lengths: their gradients and areas are those of the laid triangles, turned
+/// to lie on the part's as nearly as they can.
 /// @throws InputError  if a face has no area, as it is or laid
 std::vector<Element> elements(const TriMesh& part, const LaidLengths& laid);
 

@@ -10,8 +10,10 @@
 namespace spia {
 namespace {
 
-/// The forces from none on in steps, each from the blank of the one before, as far as equilibrium is found.
-/// @param report  of all the forces at once, which had no solution; keeps its steps, and all else if there is none without
+/// The forces from none on in steps, each from the blank of the one before, as far as equilibrium
+/// is found.
+/// @param report  of all the forces at once, which had no solution; keeps its steps, and all else
+/// if there is none without
 ///                forces either
 std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
                                          const Progress& progress)
@@ -60,9 +62,11 @@ std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eige
         share.resultant = result.resultant;
         reached = std::move(result.position);
     }
-    if (share.process_share > 0) // solved with this curve, whatever the solution without forces was found with
+    if (share.process_share > 0) // solved with this curve, whatever the solution without forces was
+                                 // found with
         share.trusted_strain = trusted_strain(context, Curve::continued, context.options.material.hardening);
-    context.external = whole.scaled(share.process_share); // what is in the blank, for who goes on from it
+    context.external = whole.scaled(share.process_share); // what is in the blank, for who goes on
+                                                          // from it
     share.energy = std::move(report.energy);
     share.newton = std::move(report.newton);
     report = std::move(share);

@@ -3,7 +3,8 @@
 
 namespace spia {
 
-/// solve_at_once(), and where that finds no equilibrium the forces of the tools from none on in steps, as far as they go.
+/// solve_at_once(), and where that finds no equilibrium the forces of the tools from none on in
+/// steps, as far as they go.
 Eigen::Matrix2Xd solve(const SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
                        const Progress& progress);
 

@@ -12,7 +12,8 @@ namespace {
 
 using Vector4d = Eigen::Vector4d;
 
-/// The four directions of dG in the basis of the singular vectors: (1,1), (2,2), and the mixed pair.
+/// The four directions of dG in the basis of the singular vectors: (1,1), (2,2), and the mixed
+/// pair.
 Eigen::Matrix4d singular_basis(const Svd2& d)
 {
     Eigen::Matrix4d basis;
@@ -99,13 +100,15 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G, c
     const Eigen::Vector2d& s = d.s;
     const AxisStress p = law.normal(-s.array().log().matrix());
 
-    // The strain in the axes V, engineering shear, changes with M = U^T dG V: columns M_11, M_22, M_12, M_21.
+    // The strain in the axes V, engineering shear, changes with M = U^T dG V: columns M_11, M_22,
+    // M_12, M_21.
     const double q = log_difference_quotient(s[0] * s[0], s[1] * s[1]);
     Eigen::Matrix<double, 3, 4> strain;
     strain << -1 / s[0], 0, 0, 0, 0, -1 / s[1], 0, 0, 0, 0, -q * s[0], -q * s[1];
     Eigen::Matrix4d H = strain.transpose() * stabilized_tangent(p, d, expected) * strain;
-    // The rest of the second derivative, stress times the strain's. The mixed directions M_12 - M_21 (twist) and M_12 + M_21
-    // (flip) have closed eigenvalues [Smith et al. 2019]; what the shear modulus adds to them above is taken off again.
+    // The rest of the second derivative, stress times the strain's. The mixed directions M_12 -
+    // M_21 (twist) and M_12 + M_21 (flip) have closed eigenvalues [Smith et al. 2019]; what the
+    // shear modulus adds to them above is taken off again.
     const Eigen::Vector2d first = -p.stress.head<2>().cwiseQuotient(s); // d W / d s
     const double shear = p.secant * p.metric(2, 2);
     const double twist = (first[0] + first[1]) / (s[0] + s[1]);

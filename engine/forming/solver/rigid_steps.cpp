@@ -7,7 +7,8 @@
 namespace spia {
 namespace {
 
-constexpr int most_steps = 6; // more gain little: what is left is the difference between the two energies
+constexpr int most_steps = 6; // more gain little: what is left is the difference between the two
+                              // energies
 
 } // namespace
 
@@ -40,7 +41,8 @@ Eigen::Matrix2Xd RigidSteps::step(const Eigen::Matrix2Xd& X) const
         [&](int f, Eigen::Matrix<double, 2, 3>& share) {
             const Element& e = element_[size_t(f)];
             const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
-            share = e.area * (nearest_rotation(G) - G) * e.gradient; // for the change: that of the translation is zero
+            // for the change: that of the translation is zero
+            share = e.area * (nearest_rotation(G) - G) * e.gradient;
         },
         [&](int f, const Eigen::Matrix<double, 2, 3>& share) {
             for (int a = 0; a < 3; ++a)

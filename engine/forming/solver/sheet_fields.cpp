@@ -14,7 +14,8 @@ SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element
         const Element& e = element[size_t(f)];
         const Svd2 d = svd(inverse_gradient(e, corners(blank.position, part.triangle.col(f))));
         const MembraneLaw& law = sheet.law_of(f);
-        const AxisStress p = law(d.U, -d.s.array().log().matrix()); // the second singular value is the major strain's
+        // the second singular value is the major strain's
+        const AxisStress p = law(d.U, -d.s.array().log().matrix());
         out.strain_major[f] = -std::log(d.s[1]);
         out.strain_minor[f] = -std::log(d.s[0]);
         out.thickness[f] = sheet.thickness[f] * d.s[0] * d.s[1];

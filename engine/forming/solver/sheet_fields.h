@@ -26,8 +26,8 @@ inline constexpr SheetScalar sheet_scalars[] = {{"thickness", &SheetFields::thic
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
                         const Sheet& sheet);
 
-/// One entry per vertex: the area-weighted mean of the faces around it; of the directions d, the major axis of the mean of
-/// d d^T. A vertex necks if a face around it does.
+/// One entry per vertex: the area-weighted mean of the faces around it; of the directions d, the
+/// major axis of the mean of d d^T. A vertex necks if a face around it does.
 SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element, const SheetFields& face);
 
 /// Room for as many entries, not set.

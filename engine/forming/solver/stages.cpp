@@ -27,12 +27,12 @@ double largest_strain(const TriMesh& part, const std::vector<Element>& element, 
     return largest;
 }
 
-/// Newton decrements of the energy stage, relative: to try the equilibrium from, to go on from, as a start for the
-/// equilibrium, as a result of its own.
+/// Newton decrements of the energy stage, relative: to try the equilibrium from, to go on from, as
+/// a start for the equilibrium, as a result of its own.
 constexpr double first_try = 0.1, rough = 1e-2, near_enough = 1e-3, exact = 1e-6;
 
-/// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a start with strains of 5
-/// is no number to begin with.
+/// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a
+/// start with strains of 5 is no number to begin with.
 EnergyResult energy_stage(const SolveContext& context, Curve curve, Eigen::Matrix2Xd X, double decrement,
                           int most_steps, SolveReport& report, const Progress& progress)
 {
@@ -160,8 +160,9 @@ std::string describe_convergence(const SolveReport& report, const std::string& o
 
 namespace {
 
-/// Whether two blanks differ by a hundredth of their size at most. The curve as given lets the sheet soften: far from the blank of
-/// the continued one its equations may have another solution, in which strain gathers in a few rows of elements.
+/// Whether two blanks differ by a hundredth of their size at most. The curve as given lets the
+/// sheet soften: far from the blank of the continued one its equations may have another solution,
+/// in which strain gathers in a few rows of elements.
 bool near_each_other(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
 {
     constexpr double near = 0.01;
@@ -198,8 +199,8 @@ std::optional<Eigen::Matrix2Xd> as_asked_for(const SolveContext& context, const 
     return solved;
 }
 
-/// With the curve continued from the uniform strain on, equations relaxed where they have to be; at last the blank of the energy
-/// stage.
+/// With the curve continued from the uniform strain on, equations relaxed where they have to be; at
+/// last the blank of the energy stage.
 Eigen::Matrix2Xd continued(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
                            const std::string& obstacle, const Progress& progress)
 {
@@ -232,7 +233,8 @@ Eigen::Matrix2Xd continued(const SolveContext& context, Eigen::Matrix2Xd X, Solv
             }
             report.newton = std::move(again.newton);
         }
-        report.converged = report.relaxed_vertices < context.part.vertices(); // else nothing is left of the system
+        // else nothing is left of the system
+        report.converged = report.relaxed_vertices < context.part.vertices();
         report.system = !report.converged             ? SolvedSystem::energy
                         : report.relaxed_vertices > 0 ? SolvedSystem::relaxed
                                                       : SolvedSystem::continued;

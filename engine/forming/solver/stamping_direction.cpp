@@ -10,7 +10,8 @@
 namespace spia {
 namespace {
 
-/// How good a direction is. Slivers have normals of noise: the smallest n . d is the least quantile by area.
+/// How good a direction is. Slivers have normals of noise: the smallest n . d is the least quantile
+/// by area.
 struct Score {
     double smallest;     ///< n . d that all but `ignored_area` of the part reach
     double visible_area; ///< signed: sum of n . d over what is seen, minus what is hidden
@@ -50,7 +51,8 @@ StampingDirection stamping_direction(const TriMesh& part)
     const Eigen::Matrix3Xd area_vector = area_vectors(part);
     const Eigen::VectorXd face_area = area_vector.colwise().norm();
 
-    // Start: the mean normal, which maximises the signed visible area; then a pattern search on the sphere.
+    // Start: the mean normal, which maximises the signed visible area; then a pattern search on the
+    // sphere.
     Eigen::Vector3d best = area_vector.rowwise().sum();
     if (best.norm() < 1e-12 * face_area.sum())
         best = Eigen::Vector3d::UnitZ();

@@ -52,7 +52,8 @@ int middle_vertex(const TriMesh& part, const std::vector<int>& piece, const Eige
     return nearest;
 }
 
-/// Length on the part along the rays from the middle, at the vertices of a piece. mm, by vertex of the part
+/// Length on the part along the rays from the middle, at the vertices of a piece. mm, by vertex of
+/// the part
 std::map<int, double> lengths_outwards(const TriMesh& part, const std::vector<Element>& element,
                                        const std::vector<int>& piece, const Eigen::Matrix2Xd& X, int middle)
 {

@@ -35,7 +35,8 @@ Eigen::Matrix2d matrix(Turn t)
 
 Svd2 svd(const Eigen::Matrix2d& G)
 {
-    // G = [e+f, g-h; g+h, e-f] is a rotation part (e, h), the angle u - v, plus a reflection part (f, g), the angle u + v.
+    // G = [e+f, g-h; g+h, e-f] is a rotation part (e, h), the angle u - v, plus a reflection part
+    // (f, g), the angle u + v.
     const double e = 0.5 * (G(0, 0) + G(1, 1)), f = 0.5 * (G(0, 0) - G(1, 1));
     const double g = 0.5 * (G(1, 0) + G(0, 1)), h = 0.5 * (G(1, 0) - G(0, 1));
     const double rotation = std::sqrt(e * e + h * h), reflection = std::sqrt(f * f + g * g);
@@ -44,7 +45,8 @@ Svd2 svd(const Eigen::Matrix2d& G)
     const Turn u{minus.c * v.c - minus.s * v.s, minus.s * v.c + minus.c * v.s};
     Svd2 out;
     out.s[0] = rotation + reflection;
-    out.s[1] = out.s[0] > 0 ? G.determinant() / out.s[0] : 0; // the difference of the two would cancel
+    // the difference of the two would cancel
+    out.s[1] = out.s[0] > 0 ? G.determinant() / out.s[0] : 0;
     out.U = matrix(u);
     out.V = matrix(v);
     return out;

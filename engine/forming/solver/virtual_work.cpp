@@ -18,7 +18,8 @@ Eigen::Matrix2d definite(const Eigen::Matrix2d& K)
     return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() * modes.eigenvectors().transpose();
 }
 
-/// Of symmetric K, with the eigenvalues by their size. [Cayley and Hamilton: |K| = (K^2 + |det K|) / tr |K|]
+/// Of symmetric K, with the eigenvalues by their size. [Cayley and Hamilton: |K| = (K^2 + |det K|)
+/// / tr |K|]
 Eigen::Matrix2d magnitude(const Eigen::Matrix2d& K)
 {
     const Eigen::Matrix2d square = K * K;
@@ -27,9 +28,9 @@ Eigen::Matrix2d magnitude(const Eigen::Matrix2d& K)
                      : Eigen::Matrix2d::Zero();
 }
 
-/// A symmetric 4 by 4 tangent over the entries of G, column by column, with the eigenvalues by their size. In the principal
-/// axes of G the changes of its singular values have nothing to do with shear and rotation; how planar anisotropy couples
-/// them is left out.
+/// A symmetric 4 by 4 tangent over the entries of G, column by column, with the eigenvalues by
+/// their size. In the principal axes of G the changes of its singular values have nothing to do
+/// with shear and rotation; how planar anisotropy couples them is left out.
 Eigen::Matrix4d definite(const Eigen::Matrix4d& K, const Svd2& G)
 {
     constexpr double least = 1e-8; // of the trace, so that nothing is left without stiffness
@@ -118,7 +119,8 @@ Eigen::VectorXd VirtualWork::mismatch() const
             const int v = part_.triangle(a, f);
             const Axes& T = axes_[size_t(v)];
             const auto& frame = element_[size_t(f)].frame;
-            // The triangle's push-forward of the blank's axes, in terms of the vertex's: the identity if they agree.
+            // The triangle's push-forward of the blank's axes, in terms of the vertex's: the
+            // identity if they agree.
             const Eigen::Matrix2d relative =
                 (T.transpose() * T).inverse() * T.transpose() * turned_[size_t(f)][size_t(a)] * F_[size_t(f)];
             const Eigen::Vector2d s = svd(relative).s;
@@ -223,7 +225,8 @@ void VirtualWork::tangents(const Eigen::Matrix2Xd& X, BlockMatrix& tangent, Bloc
                                                definite(axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).derivative));
     for (const HeldVertex& h : external_.held)
         definite_neighbour.add_to_diagonal(h.vertex, hold_ * Eigen::Matrix2d::Identity());
-    // Two vertices hold the rigid motion; the springs that really do are left to GMRES: a difference of rank six.
+    // Two vertices hold the rigid motion; the springs that really do are left to GMRES: a
+    // difference of rank six.
     const double mean = definite_neighbour.diagonal().mean();
     definite_neighbour.add_to_diagonal(0, mean);
     definite_neighbour.add_to_diagonal(1, mean);

@@ -5,8 +5,8 @@
 
 namespace spia {
 
-/// Incompressibility: the largest |h A - h0 A0| / (h0 A0) over the faces, thickness as given, areas measured anew in space (of laid
-/// faces: as they are laid) and in the plane.
+/// Incompressibility: the largest |h A - h0 A0| / (h0 A0) over the faces, thickness as given, areas
+/// measured anew in space (of laid faces: as they are laid) and in the plane.
 /// @param thickness #F, mm, of the flat sheet
 double volume_error(const TriMesh& part, const Blank& blank, const SheetFields& face, const Eigen::VectorXd& thickness,
                     const LaidLengths& laid = {});

@@ -9,7 +9,8 @@
 namespace spia {
 namespace {
 
-/// The share of the limit that is used up where it is greatest. Zones::distance is what is left of it in engineering major strain.
+/// The share of the limit that is used up where it is greatest. Zones::distance is what is left of
+/// it in engineering major strain.
 void find_greatest_share(const LimitsResult& limits, const SheetFields& face, CrackVerdict& verdict)
 {
     const Eigen::VectorXd& left = limits.zones.distance;

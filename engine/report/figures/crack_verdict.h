@@ -15,7 +15,8 @@ struct CrackVerdict {
         unknown   ///< there is no curve
     };
     Kind kind = Kind::none;
-    double share = 0; ///< greatest engineering major strain over that of the curve at the same minor strain
+    double share = 0; ///< greatest engineering major strain over that of the curve at the same
+                      ///< minor strain
     int face = -1;    ///< where that is
     std::string text; ///< a sentence or two
 };

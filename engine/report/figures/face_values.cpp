@@ -11,7 +11,8 @@
 namespace spia {
 namespace {
 
-/// Whether it is bad by being more than nothing; a thickness and a margin are bad by being less than elsewhere.
+/// Whether it is bad by being more than nothing; a thickness and a margin are bad by being less
+/// than elsewhere.
 bool has_zero(Field field)
 {
     return field != Field::thickness && field != Field::zone && field != Field::limit_distance &&
@@ -74,10 +75,11 @@ void raise_to_greatest(const TriMesh& part, const Deviation& deviation, Eigen::V
 
 double noise(Field field, double size)
 {
-    // The solver ends at 1e-8 of the nodal forces at yield (FlattenOptions::tolerance), which is some 1e-11 of strain. What it
-    // is given is coarser: STL and glTF hold coordinates in 24 bits, 6e-8 of a part; on edges of a thousandth of it that is 6e-5 of
-    // strain. 1e-4 lies above that, and a factor of ten below the elastic limit of sheet metal (Rp/E, about 1e-3), under which nothing
-    // is formed.
+    // The solver ends at 1e-8 of the nodal forces at yield (FlattenOptions::tolerance), which is
+    // some 1e-11 of strain. What it is given is coarser: STL and glTF hold coordinates in 24 bits,
+    // 6e-8 of a part; on edges of a thousandth of it that is 6e-5 of strain. 1e-4 lies above that,
+    // and a factor of ten below the elastic limit of sheet metal (Rp/E, about 1e-3), under which
+    // nothing is formed.
     constexpr double strain = 1e-4;
     switch (field) {
     case Field::strain_major:
@@ -89,7 +91,8 @@ double noise(Field field, double size)
     case Field::inner_strain_major:
     case Field::inner_strain_minor:
     case Field::inner_strain_equivalent: return strain;
-    case Field::curvature: return size > 0 ? 1e-3 / size : 0; // 1/mm: flatter than the part is long by far
+    // 1/mm: flatter than the part is long by far
+    case Field::curvature: return size > 0 ? 1e-3 / size : 0;
     case Field::thinning:
     case Field::area_change:
     case Field::limit_distance: return 100 * strain; // %
@@ -97,7 +100,9 @@ double noise(Field field, double size)
     case Field::angle_distortion: return 0.01;       // degrees: 1e-4 of shear is 0.006
     case Field::stress_major:
     case Field::stress_minor:
-    case Field::stress_equivalent: return 0.1; // MPa: hardening, of the order of 1 GPa, times the strain
+    case Field::stress_equivalent:
+        return 0.1;                            // MPa: hardening, of the order of 1 GPa, times the
+                                               // strain
     case Field::deviation: return 1e-6 * size; // mm, as what is read in single precision
     case Field::necking:
     case Field::zone:

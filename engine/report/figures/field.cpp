@@ -102,8 +102,8 @@ const Eigen::VectorXd& of_skin(const SkinStrains& skins, Field field)
 
 const std::vector<FieldInfo>& all_fields()
 {
-    // Major strain and stress and all lengths are positive but for rare spots; a map with a middle would waste half of
-    // its colours on them.
+    // Major strain and stress and all lengths are positive but for rare spots; a map with a middle
+    // would waste half of its colours on them.
     static const std::vector<FieldInfo> fields = {
         {Field::none, "none", "No field", "", false, "The plain sheet."},
         {Field::thickness, "thickness", "Thickness", "mm", false, "Thickness of the sheet after forming."},

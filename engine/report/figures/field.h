@@ -38,25 +38,28 @@ struct FieldInfo {
     Field field;
     std::string_view name;  ///< as in scripts and projects, e.g. "strain_major"
     std::string_view label; ///< for people, e.g. "Major strain"
-    std::string_view
-        unit;       ///< "mm", "%", "MPa", "°", "" (a pure number), "zone" (the number of a Zone, told by its name)
-    bool diverging; ///< zero matters: both signs
-    std::string_view help; ///< one sentence: what it is
+    std::string_view unit;  ///< "mm", "%", "MPa", "°", "" (a pure number), "zone" (the number of a
+                            ///< Zone, told by its name)
+    bool diverging;         ///< zero matters: both signs
+    std::string_view help;  ///< one sentence: what it is
 };
 
 /// All of them, in the order of the menu.
 const std::vector<FieldInfo>& all_fields();
 const FieldInfo& info(Field field);
-/// "thickening", which older projects and scripts have, is thinning: negative where the sheet became thicker. @throws InputError
+/// "thickening", which older projects and scripts have, is thinning: negative where the sheet
+/// became thicker. @throws InputError
 Field field_by_name(std::string_view name);
 
 /// Whether the session has what the field needs.
 bool available(const Session& session, Field field);
-/// Whether it belongs to the strains of both skins, which are made only where asked for (FlattenOptions::skins).
+/// Whether it belongs to the strains of both skins, which are made only where asked for
+/// (FlattenOptions::skins).
 bool of_skins(Field field);
 
-/// Values in the unit of the field, one per vertex of the part or one per face; empty for Field::none. The deviation has no values per
-/// face of its own: that of the corner where it is greatest. What is said in numbers is face_values().
+/// Values in the unit of the field, one per vertex of the part or one per face; empty for
+/// Field::none. The deviation has no values per face of its own: that of the corner where it is
+/// greatest. What is said in numbers is face_values().
 /// @throws InputError if it is not available
 Eigen::VectorXd values(const Session& session, Field field, bool per_face);
 

@@ -7,8 +7,9 @@
 #include "engine/mesh/distortion.h"
 #include "engine/pipeline/session.h"
 
-/// The figures of a result as a whole, each computed here and nowhere else: JSON, terminal, reports and panels render
-/// them. Looking at all vertices or faces takes time, so they are made once per result.
+/// The figures of a result as a whole, each computed here and nowhere else: JSON, terminal, reports
+/// and panels render them. Looking at all vertices or faces takes time, so they are made once per
+/// result.
 namespace spia {
 
 /// Of any part, also of one that is refused.
@@ -78,7 +79,8 @@ struct ResultFigures {
     SheetFigures sheet;
     Distortion distortion;
     std::optional<SurfaceFigures> surface;
-    std::optional<CertificateFigures> certificate; ///< of the deformed surface, where it is deformed
+    std::optional<CertificateFigures> certificate; ///< of the deformed surface, where it is
+                                                   ///< deformed
 };
 ResultFigures result_figures(const Session& session);
 

@@ -16,10 +16,12 @@ struct Histogram {
 /// @param value one per face; @param bins at least 1
 Histogram histogram(const TriMesh& part, const Eigen::VectorXd& value, int bins);
 
-/// How bad a value of a field is: the greater the worse. The thinner and the more squeezed the worse; a deviation by its size.
+/// How bad a value of a field is: the greater the worse. The thinner and the more squeezed the
+/// worse; a deviation by its size.
 double badness(Field field, double value);
 
-/// Faces where a field is worst, the worst first, no two nearer to each other than a tenth of the part: one spot is listed once.
+/// Faces where a field is worst, the worst first, no two nearer to each other than a tenth of the
+/// part: one spot is listed once.
 /// @param value one per face; @param smallest look for the least values instead of the greatest
 std::vector<int> worst_spots(const TriMesh& part, const Eigen::VectorXd& value, int most, bool smallest);
 

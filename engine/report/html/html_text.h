@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <string>
 
-/// The words and numbers of an HTML report: one style, numbers as printers set them. What comes in as plain text goes out
-/// escaped.
+/// The words and numbers of an HTML report: one style, numbers as printers set them. What comes in
+/// as plain text goes out escaped.
 namespace spia {
 
 std::string fixed(double value, int digits);       ///< no -0.0

@@ -32,7 +32,8 @@ std::vector<ChartCurve> dots(const LimitsResult& limits, const SheetFields& face
 {
     constexpr int most_per_zone = 1200;
     std::vector<ChartCurve> drawn;
-    for (auto zone = std::rbegin(all_zones); zone != std::rend(all_zones); ++zone) { // the worst on top
+    // the worst on top
+    for (auto zone = std::rbegin(all_zones); zone != std::rend(all_zones); ++zone) {
         ChartCurve curve{"", hex(zone_colour(*zone)), {}, true, false};
         const int faces = limits.zones.share[size_t(*zone)].faces, stride = 1 + (faces - 1) / most_per_zone;
         int seen = 0;

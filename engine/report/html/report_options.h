@@ -13,15 +13,18 @@ struct ReportTables {
     friend bool operator==(const ReportTables&, const ReportTables&) = default;
 };
 
-/// How the reader is told what the engine says, which speaks of mm and of the options of the command line.
+/// How the reader is told what the engine says, which speaks of mm and of the options of the
+/// command line.
 struct ReportReader {
     LengthUnit lengths = LengthUnit::mm;           ///< mm or inch
-    std::function<std::string(std::string)> words; ///< those of another program; none: as the engine says it
+    std::function<std::string(std::string)> words; ///< those of another program; none: as the
+                                                   ///< engine says it
 
     std::string told(std::string text) const;
 };
 
-/// What a report holds beside what it always has: who, when, the four great figures and what makes the result poorer.
+/// What a report holds beside what it always has: who, when, the four great figures and what makes
+/// the result poorer.
 struct ReportOptions {
     std::string title;   ///< empty: the file of the part
     std::string remarks; ///< of the user, line by line; may be empty

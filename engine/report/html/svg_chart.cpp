@@ -118,7 +118,8 @@ std::string mark_line(const ChartMark& mark, const Axis& x)
                        x(mark.x), top, height - bottom);
 }
 
-/// The words of a mark, on the side of its line with more room, one above the other; white around them hides what they cross.
+/// The words of a mark, on the side of its line with more room, one above the other; white around
+/// them hides what they cross.
 std::string mark_words(const ChartMark& mark, const Axis& x, size_t number)
 {
     const bool turned = x(mark.x) > 0.6 * width;

@@ -9,7 +9,8 @@
 
 namespace spia {
 
-/// The result of a run as JSON, the contract of engine/pipeline/README.md. Stages that have not run are left out.
+/// The result of a run as JSON, the contract of engine/pipeline/README.md. Stages that have not run
+/// are left out.
 /// @param write_seconds time of write_outputs()
 /// @param failure what ended the chain before its end, if anything did
 std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds,

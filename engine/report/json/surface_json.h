@@ -5,7 +5,8 @@
 
 namespace spia {
 
-/// The surface's part of the report: control points, deviation both ways, normals, and how a fit went.
+/// The surface's part of the report: control points, deviation both ways, normals, and how a fit
+/// went.
 /// @param part  whose numbers of the file name vertices
 nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& part);
 

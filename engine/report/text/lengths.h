@@ -4,8 +4,9 @@
 
 #include "engine/core/length_unit.h"
 
-/// Lengths on the screen. Inside the program, in projects, scripts and reports of the state they are mm throughout; what people read
-/// and type is in the unit of their preferences, mm or inch, and comes from here. Files that are exported have units of their own.
+/// Lengths on the screen. Inside the program, in projects, scripts and reports of the state they
+/// are mm throughout; what people read and type is in the unit of their preferences, mm or inch,
+/// and comes from here. Files that are exported have units of their own.
 namespace spia {
 
 /// "mm" or "in".
@@ -13,7 +14,8 @@ std::string_view length_word(LengthUnit unit);
 double shown_length(double mm, LengthUnit unit);
 double kept_length(double shown, LengthUnit unit); ///< mm of what was typed
 
-/// A quantity with the unit behind it, e.g. "mm", "mm²", "1/mm", "1/mm²"; those without a length in them stay as they are.
+/// A quantity with the unit behind it, e.g. "mm", "mm²", "1/mm", "1/mm²"; those without a length in
+/// them stay as they are.
 struct ShownUnit {
     double factor = 1; ///< shown value = factor * value
     std::string unit;

@@ -21,7 +21,8 @@ struct FoundNumber {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-/// The number that ends before a place; nothing if there is none, or it is the end of a name ("M10", "part-3" is one, "v2.5" is none).
+/// The number that ends before a place; nothing if there is none, or it is the end of a name
+/// ("M10", "part-3" is one, "v2.5" is none).
 std::optional<FoundNumber> number_before(std::string_view text, size_t end)
 {
     const auto belongs = [](char c) { return is_digit(c) || c == '.' || c == '-' || c == '+' || c == 'e'; };
@@ -54,7 +55,8 @@ std::vector<FoundNumber> numbers_before(std::string_view text, size_t end)
     return found;
 }
 
-/// As many significant digits as the engine has given, three at least: an inch is no coarser than what it was made of.
+/// As many significant digits as the engine has given, three at least: an inch is no coarser than
+/// what it was made of.
 std::string converted(std::string_view digits, double value, double factor)
 {
     int significant = 0;
@@ -70,7 +72,8 @@ std::string converted(std::string_view digits, double value, double factor)
 std::string in_shown_lengths(std::string_view text, LengthUnit unit)
 {
     std::string result(text);
-    const std::string question = "is that in mm?"; // of a number that was typed in the unit of the screen
+    const std::string question = "is that in mm?"; // of a number that was typed in the unit of the
+                                                   // screen
     if (const size_t at = result.find(question); at != result.npos && unit != LengthUnit::mm)
         result.replace(at, question.size(),
                        fmt::format("is that in {}?", unit == LengthUnit::inch ? "inch" : name(unit)));
@@ -86,7 +89,8 @@ std::string in_shown_lengths(std::string_view text, LengthUnit unit)
             }
         const char next = end < result.size() ? result[end] : ' ',
                    after = end + 1 < result.size() ? result[end + 1] : ' ';
-        if (is_letter(next) || is_digit(next) || next == '/' || (next == '.' && is_letter(after))) // "mm.stl" is a file
+        // "mm.stl" is a file
+        if (is_letter(next) || is_digit(next) || next == '/' || (next == '.' && is_letter(after)))
             continue;
         const std::vector<FoundNumber> numbers = numbers_before(result, at);
         if (numbers.empty())

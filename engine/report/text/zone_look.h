@@ -8,7 +8,8 @@
 namespace spia {
 
 std::string zone_words(Zone zone);                 ///< for people: "Excessive thinning"
-std::array<float, 4> zone_colour(Zone zone);       ///< sRGB, opaque; told apart on light and dark ground
+std::array<float, 4> zone_colour(Zone zone);       ///< sRGB, opaque; told apart on light and dark
+                                                   ///< ground
 std::string hex(const std::array<float, 4>& srgb); ///< "#c0261c"
 
 } // namespace spia

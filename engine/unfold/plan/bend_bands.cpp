@@ -26,10 +26,12 @@ struct Turned {
 
 struct BendMeasure {
     double to_a = 0, to_b = 0;             ///< mm, of the borders
-    double weight = 0, angle = 0, all = 0; ///< of the ways across, by the length of the border they begin at
+    double weight = 0, angle = 0, all = 0; ///< of the ways across, by the length of the border they
+                                           ///< begin at
 };
 
-/// The turns on the way from a face of a bend back to a region; none if that is no region of the bend.
+/// The turns on the way from a face of a bend back to a region; none if that is no region of the
+/// bend.
 std::optional<Turned> way_back(const SheetTurns& turns, const std::vector<int>& region, const Ways& ways, int face,
                                int towards)
 {
@@ -46,8 +48,9 @@ std::optional<Turned> way_back(const SheetTurns& turns, const std::vector<int>& 
     return turned;
 }
 
-/// Across every bend from each of its borders to the other one; a border counts by its length along the axis of the turn, so
-/// that it does not matter whether the mesh follows it or zigzags about it.
+/// Across every bend from each of its borders to the other one; a border counts by its length along
+/// the axis of the turn, so that it does not matter whether the mesh follows it or zigzags about
+/// it.
 void measure_bends(const SheetTurns& turns, const std::vector<int>& region, const std::vector<int>& bend,
                    const Ways& ways, std::vector<Bend>& bends)
 {

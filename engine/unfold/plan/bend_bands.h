@@ -14,7 +14,8 @@ struct Bands {
 /// The bands of faces between regions, measured. @param region #F, -1 on bends; @param least mm2
 Bands find_bands(const TriMesh& part, const SheetTurns& turns, const std::vector<int>& region, double least);
 
-/// What is curved more within a region, but ends there or at the rim without a definite turn, belongs to the region.
+/// What is curved more within a region, but ends there or at the rim without a definite turn,
+/// belongs to the region.
 /// @returns whether there was any
 bool give_dents(const Bands& bands, std::vector<int>& region);
 

@@ -22,7 +22,8 @@ Ways ways_from_regions(const TriMesh& part, const SheetTurns& turns, const std::
         }
     };
     std::priority_queue<Visit, std::vector<Visit>, std::greater<>> queue;
-    const auto step = [&](int f, int e) { return turns.height(turns.edge[size_t(e)], f) / 3; }; // to the edge
+    // to the edge
+    const auto step = [&](int f, int e) { return turns.height(turns.edge[size_t(e)], f) / 3; };
     for (int e = 0; e < int(turns.edge.size()); ++e) {
         const EdgeTurn& edge = turns.edge[size_t(e)];
         for (const auto& [f, g] : {std::pair(edge.face, edge.twin), std::pair(edge.twin, edge.face)})

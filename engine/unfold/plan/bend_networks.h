@@ -12,17 +12,20 @@ namespace spia {
 struct Way {
     int region = -1;
     double length = std::numeric_limits<double>::infinity(); ///< mm
-    int edge = -1;                                           ///< the last edge of the way, towards this face
-    int before = -1;                                         ///< the face before it
+    /// the last edge of the way, towards this face
+    int edge = -1;
+    int before = -1; ///< the face before it
 };
 
 /// The two nearest regions of every face of a bend.
 using Ways = std::vector<std::array<Way, 2>>;
 
-/// Dijkstra from all regions at once; each face is reached by two regions at most. @param region #F, -1 on bends
+/// Dijkstra from all regions at once; each face is reached by two regions at most. @param region
+/// #F, -1 on bends
 Ways ways_from_regions(const TriMesh& part, const SheetTurns& turns, const std::vector<int>& region);
 
-/// Bends: connected faces of bends between the same two regions. Small ones are given to the neighbour in the network.
+/// Bends: connected faces of bends between the same two regions. Small ones are given to the
+/// neighbour in the network.
 /// @param least mm2
 /// @param pairs gets the two regions of each bend, -1 for none
 /// @returns per face its bend, -1 on regions

@@ -26,8 +26,8 @@ double nearest_turn(double angle, double to) { return angle - 2 * pi * std::roun
 /// Faces outside a zone that go on from it nearly as it ends.
 std::vector<int> faces_beyond(const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour, const BendZone& zone)
 {
-    constexpr double level =
-        0.98; // of the cosine, 11 degrees: a vertex of the rim that lies off the flat tilts triangles beside it
+    constexpr double level = 0.98; // of the cosine, 11 degrees: a vertex of the rim that lies off
+                                   // the flat tilts triangles beside it
     std::vector<int> reached;
     std::set<int> seen(zone.face.begin(), zone.face.end());
     const auto level_with = [&](int f, int g) {
@@ -44,17 +44,20 @@ std::vector<int> faces_beyond(const Eigen::Matrix3Xd& normal, const Eigen::Matri
     return reached;
 }
 
-/// Between two holes that cross its end askew no corner may lie where a bend ends, but the flat beside it tells: it touches the cylinder there.
+/// Between two holes that cross its end askew no corner may lie where a bend ends, but the flat
+/// beside it tells: it touches the cylinder there.
 void end_on_flats(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& zone)
 {
     const Eigen::Matrix3Xd normal = area_vectors(part);
     const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
     const double middle = (zone.from + zone.to) / 2;
-    Eigen::Vector2d end(zone.from, zone.to), largest = Eigen::Vector2d::Zero(); // that tells of each end
+    // that tells of each end
+    Eigen::Vector2d end(zone.from, zone.to), largest = Eigen::Vector2d::Zero();
     for (const int f : faces_beyond(normal, neighbour, zone)) {
         const Eigen::Vector3d n = normal.col(f).normalized();
         const double from_axis = (part.position.col(part.triangle(0, f)) - zone.point).dot(n);
-        constexpr double touches = 1e-9; // of the radius: a triangle that is tilted by 4e-5 rad is farther off
+        constexpr double touches = 1e-9; // of the radius: a triangle that is tilted by 4e-5 rad is
+                                         // farther off
         if (std::abs(std::abs(from_axis) - zone.radius) > touches * zone.radius + 2 * zone.measured ||
             std::abs(n.dot(zone.axis)) > touches + 2 * zone.measured / zone.radius)
             continue;
@@ -66,7 +69,8 @@ void end_on_flats(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZo
             end[which] = angle;
         }
     }
-    constexpr double near = 0.3; // of the angle: as far as rims go past the end of the smallest bends
+    constexpr double near = 0.3; // of the angle: as far as rims go past the end of the smallest
+                                 // bends
     const double much = near * (zone.to - zone.from);
     if (std::abs(end[0] - zone.from) < much)
         zone.from = end[0];
@@ -130,10 +134,12 @@ void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& z
         }
     zone.face.resize(kept);
     zone.turn.resize(kept);
-    // Where the slanted rim of a hole crosses the border of the bend, corners lie beside the cylinder, or on it beyond the border. Where
-    // it ends is what corners on it say that it has in common with the sheet beside it; at a free edge any.
+    // Where the slanted rim of a hole crosses the border of the bend, corners lie beside the
+    // cylinder, or on it beyond the border. Where it ends is what corners on it say that it has in
+    // common with the sheet beside it; at a free edge any.
     const double on = 4 * middle_off + 1e-7 * zone.radius +
-                      2 * zone.measured; // a corner that is 4e-4 rad beyond the border is farther off
+                      2 * zone.measured; // a corner that is 4e-4 rad beyond the border is farther
+                                         // off
     std::set<int> common;
     for (const int f : zone.face)
         for (int k = 0; k < 3; ++k)
@@ -210,11 +216,12 @@ void join_pieces(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, std::ve
     zones = std::move(joined);
 }
 
-/// Whether it goes over into the sheet beside it along its axis, at one of its ends at least. Walls of drawn sheet are cylinders, too, but
-/// end all around them.
+/// Whether it goes over into the sheet beside it along its axis, at one of its ends at least. Walls
+/// of drawn sheet are cylinders, too, but end all around them.
 bool ends_straight(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const BendZone& zone)
 {
-    constexpr double parallel = 0.09; // the sine of 5 degrees: of edges whose vertices are a little off
+    constexpr double parallel = 0.09; // the sine of 5 degrees: of edges whose vertices are a little
+                                      // off
     double straight = 0, askew = 0;
     for (const int f : zone.face)
         for (int k = 0; k < 3; ++k) {
@@ -225,7 +232,8 @@ bool ends_straight(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const
                 part.position.col(part.triangle((k + 1) % 3, f)) - part.position.col(part.triangle(k, f));
             (edge.cross(zone.axis).norm() > parallel * edge.norm() ? askew : straight) += edge.norm();
         }
-    constexpr double one_end = 0.25; // of both; a notch there may leave the other one to triangles that are askew
+    constexpr double one_end = 0.25; // of both; a notch there may leave the other one to triangles
+                                     // that are askew
     return straight >= one_end * (straight + askew);
 }
 
@@ -234,7 +242,8 @@ std::optional<double> radius_by_flats(const TriMesh& part, const Eigen::Matrix3X
                                       const Eigen::Matrix3Xd& normal, const BendZone& zone)
 {
     constexpr double square = 1e-6, alike = 1e-6; // the sine of an angle; of the radius
-    constexpr double near = 0.02; // of the radius: vertices on chords of up to 20 degrees are off by less
+    constexpr double near = 0.02;                 // of the radius: vertices on chords of up to 20
+                                                  // degrees are off by less
     const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
     const double middle = (zone.from + zone.to) / 2;
     std::array<double, 2> area{0, 0}, radius{0, 0};
@@ -255,8 +264,9 @@ std::optional<double> radius_by_flats(const TriMesh& part, const Eigen::Matrix3X
     return (radius[0] + radius[1]) / 2;
 }
 
-/// The triangles of a remeshed part lie across the lines where a bend begins and ends: all that have a corner within it belong to it, and
-/// those that are not touched lie in the flats, which tell where these lines are.
+/// The triangles of a remeshed part lie across the lines where a bend begins and ends: all that
+/// have a corner within it belong to it, and those that are not touched lie in the flats, which
+/// tell where these lines are.
 /// @param taken  #F: faces of zones
 /// @returns whether there are flats on both sides
 bool between_flats(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const Eigen::Matrix3Xd& normal,
@@ -346,7 +356,8 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
     }
     for (BendZone& zone : zones) {
         zone.bulging = bulges(part, normal, zone);
-        // The mesh may be another side of the sheet than the CAD face: where its vertices are is what they say.
+        // The mesh may be another side of the sheet than the CAD face: where its vertices are is
+        // what they say.
         std::vector<double> radius;
         for (const int f : zone.face)
             for (int k = 0; k < 3; ++k) {

@@ -13,10 +13,12 @@ namespace spia {
 namespace {
 
 constexpr double exact = 1e-4; // of fit_target()
-// On a smooth face flanges land straight on from its edge: how well it goes there shows in the angle.
+// On a smooth face flanges land straight on from its edge: how well it goes there shows in the
+// angle.
 constexpr double most_angle = 0.2; // radians
 
-/// Per region from 1, where what it is joined to lies outside of it, to -1, where it lies around that, as the flange around a cup.
+/// Per region from 1, where what it is joined to lies outside of it, to -1, where it lies around
+/// that, as the flange around a cup.
 std::vector<double> outwards(const TriMesh& part, const BendMap& map)
 {
     std::vector<double> out(map.regions.size(), 0), most(map.regions.size(), 0);
@@ -110,9 +112,11 @@ bool Carriers::loose(int region) { return plain(region) && found(region).loose; 
 int chosen_root(const TriMesh& part, const BendMap& map, Carriers& carriers)
 {
     constexpr double around =
-        0.1; // what the area of a region counts that lies around the others: all would be stretched into it
+        0.1; // what the area of a region counts that lies around the others: all would be stretched
+             // into it
     const std::vector<double> out = outwards(part, map);
-    constexpr double comparable = 0.25; // a face to lay on is worth a smaller region, but not a tiny one
+    constexpr double comparable = 0.25; // a face to lay on is worth a smaller region, but not a
+                                        // tiny one
     const auto score = [&](int r) {
         return map.regions[size_t(r)].area * std::pow(map.regions[size_t(r)].flatness, 2) *
                (out[size_t(r)] < 0 ? around : 1);

@@ -39,11 +39,12 @@ private:
     std::vector<Found> found_;
 };
 
-/// The largest flat region, one with a plane, cylinder or cone if it is not much smaller than the best; not one that lies around the
-/// others.
+/// The largest flat region, one with a plane, cylinder or cone if it is not much smaller than the
+/// best; not one that lies around the others.
 int chosen_root(const TriMesh& part, const BendMap& map, Carriers& carriers);
 
-/// Whether places go around a cylinder or cone so far that no line is left along which it could be cut.
+/// Whether places go around a cylinder or cone so far that no line is left along which it could be
+/// cut.
 bool wraps(const TargetSurface& face, const TriMesh& part, const std::set<int>& vertices);
 
 /// mm, of the box around some faces

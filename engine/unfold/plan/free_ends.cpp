@@ -34,7 +34,8 @@ double distance(const Eigen::Vector3d& place, const Eigen::Vector3d& from, const
     return (from + std::clamp(share, 0., 1.) * way - place).norm();
 }
 
-/// The direction that the normals of some faces are square to, along which the lines of a bend run, and how far they are off that.
+/// The direction that the normals of some faces are square to, along which the lines of a bend run,
+/// and how far they are off that.
 struct Turning {
     Eigen::Vector3d axis; ///< unit
     double off;           ///< the sine of an angle, within which nine tenths of the area are
@@ -114,9 +115,9 @@ std::array<std::vector<FreeEnds::End>, 2> FreeEnds::ends(const Strip& strip) con
 
 bool FreeEnds::free(const Strip& strip) const
 {
-    constexpr double share =
-        0.25; // of the breadth, and of the length; the sheet beside the end of a drawn radius is broader
-    constexpr double most = 0.5; // of the lines
+    constexpr double share = 0.25; // of the breadth, and of the length; the sheet beside the end of
+                                   // a drawn radius is broader
+    constexpr double most = 0.5;   // of the lines
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Eigen::Vector3d& along : strip.along) {
         low = std::min(low, along.minCoeff());
@@ -209,7 +210,8 @@ FreeEnds::Strip FreeEnds::band(const BendMap& map, size_t bend, const Eigen::Vec
 
 bool FreeEnds::of(const BendMap& map, size_t bend, const Eigen::Matrix2Xd& flat) const
 {
-    constexpr double parallel = 15 * std::numbers::pi / 180; // triangles that lie askew over a bend are tilted
+    constexpr double parallel = 15 * std::numbers::pi / 180; // triangles that lie askew over a bend
+                                                             // are tilted
     const Bend& of = map.bends[bend];
     if (of.b < 0)
         return false;

@@ -11,20 +11,23 @@
 
 namespace spia {
 
-// A press brake bends sheet along straight lines, all of them parallel, and from one edge of the sheet to another: beyond the end of a line
-// there is nothing, or a hole, that would hold the sheet back. The radius of a drawn part, also where it is straight, ends in sheet that
-// was drawn. What interrupts a bend on its way, a hole, a notch, a bead, is no matter.
+// A press brake bends sheet along straight lines, all of them parallel, and from one edge of the
+// sheet to another: beyond the end of a line there is nothing, or a hole, that would hold the sheet
+// back. The radius of a drawn part, also where it is straight, ends in sheet that was drawn. What
+// interrupts a bend on its way, a hole, a notch, a bead, is no matter.
 
 /// Tells bends that a press brake makes from the radii of drawn sheet, in a part that outlives it.
 class FreeEnds {
 public:
     explicit FreeEnds(const TriMesh& part);
 
-    /// Whether a zone ends at the edge of the part, or of a hole, at both its ends: over most of its breadth the outermost edge is one, or
-    /// one is near, for beside the edge narrow triangles may be no part of the zone.
+    /// Whether a zone ends at the edge of the part, or of a hole, at both its ends: over most of
+    /// its breadth the outermost edge is one, or one is near, for beside the edge narrow triangles
+    /// may be no part of the zone.
     bool of(const BendZone& zone) const;
 
-    /// Whether a bend of the map runs between two regions along a straight line, parallel to itself, and ends so.
+    /// Whether a bend of the map runs between two regions along a straight line, parallel to
+    /// itself, and ends so.
     /// @param flat  2 by #V, mm: the blank
     bool of(const BendMap& map, size_t bend, const Eigen::Matrix2Xd& flat) const;
 
@@ -32,7 +35,8 @@ private:
     /// Faces between the two lines where a bend begins and ends.
     struct Strip {
         std::vector<int> face;
-        std::vector<Eigen::Vector3d> across; ///< per face, of its corners: 0 where the bend begins, 1 where it ends
+        std::vector<Eigen::Vector3d> across; ///< per face, of its corners: 0 where the bend begins,
+                                             ///< 1 where it ends
         std::vector<Eigen::Vector3d> along;  ///< mm, of its corners, along the bend
         double breadth = 0;                  ///< mm, across the bend
     };

@@ -77,7 +77,8 @@ KFactor constant_k(double k)
 
 KFactor din6935_k()
 {
-    // The sagitta of 0.25 lg x over a row that is 1 + q times as far as the one before is 0.25 lg(e) q^2 / 8: below 1e-7.
+    // The sagitta of 0.25 lg x over a row that is 1 + q times as far as the one before is 0.25
+    // lg(e) q^2 / 8: below 1e-7.
     constexpr int rows = 2500;
     const double least = std::log10(0.05), end = 5;
     KFactor result{"din6935", {}};

@@ -49,7 +49,8 @@ std::vector<int> depths(const BendMap& map, const LabelGraph& graph, int root)
 {
     constexpr double curl = 0.5;
     const int none = std::numeric_limits<int>::max(), regions = int(map.regions.size());
-    // A bend leads from one of its two regions to the other; that bends touch at the corners of walls leads nowhere.
+    // A bend leads from one of its two regions to the other; that bends touch at the corners of
+    // walls leads nowhere.
     const auto joins = [&](int bend, int region) {
         const Bend& between = map.bends[size_t(bend - regions)];
         return between.a == region || between.b == region;
@@ -59,7 +60,8 @@ std::vector<int> depths(const BendMap& map, const LabelGraph& graph, int root)
     };
     std::vector<int> way(graph.edge.size(), none);
     way[size_t(root)] = 0;
-    for (const bool anyhow : {false, true}) { // what is reached in no such way is reached over whatever touches
+    for (const bool anyhow : {false, true}) { // what is reached in no such way is reached over
+                                              // whatever touches
         std::deque<int> queue;
         for (int label = 0; label < int(way.size()); ++label)
             if (way[size_t(label)] != none)

@@ -108,7 +108,8 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
         else
             result.radius = laid;
     }
-    // Vertices that a mesher put on chords are off the cylinder by the sagitta of 20 degrees at most, 0.4 to 1.5 % of the radius.
+    // Vertices that a mesher put on chords are off the cylinder by the sagitta of 20 degrees at
+    // most, 0.4 to 1.5 % of the radius.
     constexpr double most_off = 0.02;
     const std::string finer = "give the part finer triangles there, or measure a trial bend";
     if (at.off + std::abs(at.radius - of_mesh) > most_off * of_mesh)
@@ -125,7 +126,8 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
 void compare_borders(const TriMesh& part, std::vector<Candidate>& candidates)
 {
     constexpr double alike = 1e-4; // of a length; what a K factor or chords change is more
-    std::vector<std::pair<int, int>> at(size_t(part.triangles()), {-1, -1}); // candidate, place in it
+    // candidate, place in it
+    std::vector<std::pair<int, int>> at(size_t(part.triangles()), {-1, -1});
     for (size_t c = 0; c < candidates.size(); ++c)
         for (size_t i = 0; i < candidates[c].zone.face.size(); ++i)
             at[size_t(candidates[c].zone.face[i])] = {int(c), int(i)};
@@ -143,12 +145,13 @@ void compare_borders(const TriMesh& part, std::vector<Candidate>& candidates)
         const Eigen::Vector2d edge = x.col((use.corner + 1) % 3) - x.col(use.corner);
         return std::abs(edge[0]) > std::abs(edge[1]);
     };
-    /// Of a zone's edges, mm: of all, and of those with two lengths the ones around and along the axis.
+    /// Of a zone's edges, mm: of all, and of those with two lengths the ones around and along the
+    /// axis.
     struct Border {
         double all = 0, around = 0, along = 0;
     };
-    // Where the rim of a hole crosses the border of a bend, edges along it may be a little off; where the zone goes over into
-    // drawn sheet, all edges around its end are.
+    // Where the rim of a hole crosses the border of a bend, edges along it may be a little off;
+    // where the zone goes over into drawn sheet, all edges around its end are.
     constexpr double share = 0.25;
     for (bool changed = true; changed;) {
         std::vector<Border> border(candidates.size());
@@ -182,8 +185,8 @@ void compare_borders(const TriMesh& part, std::vector<Candidate>& candidates)
     }
 }
 
-/// Where the K factor has no effect: in flat sheet and at sharp folds, which is as it should be, and
-/// in sheet that bends but not over a cylinder.
+/// Where the K factor has no effect: in flat sheet and at sharp folds, which is as it should be,
+/// and in sheet that bends but not over a cylinder.
 void note_no_effect(const TriMesh& part, BendTable& table)
 {
     constexpr double curved = 0.5 * degree, sharp = 40 * degree,
@@ -206,7 +209,8 @@ void note_no_effect(const TriMesh& part, BendTable& table)
         const double edge = (part.position.col(uses[begin].low) - part.position.col(uses[begin].high)).norm();
         if (turn > sharp)
             edges += edge;
-        else if (turn > curved) { // a broad face beside a narrow one is the flat beside the first chord of a bend
+        else if (turn > curved) { // a broad face beside a narrow one is the flat beside the first
+                                  // chord of a bend
             constexpr double broader = 3;
             const double one = breadth(f, edge), other = breadth(g, edge);
             otherwise[size_t(f)] |= one <= broader * other;

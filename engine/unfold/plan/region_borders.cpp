@@ -11,8 +11,8 @@
 namespace spia {
 namespace {
 
-/// Per face of a region how far its farthest vertex is from the plane in which most of the region lies. @returns nothing if
-/// there is none
+/// Per face of a region how far its farthest vertex is from the plane in which most of the region
+/// lies. @returns nothing if there is none
 std::vector<double> off_plane(const TriMesh& part, const SheetTurns& turns, const std::vector<int>& faces, double most)
 {
     constexpr double share = 0.7; // of the area, that has to lie in the plane

@@ -24,7 +24,8 @@ std::string names(const BendMap& map, const std::vector<int>& labels)
         if (label < int(map.regions.size()))
             words.push_back(map.name(label));
         else
-            rims += map.bends[size_t(label) - map.regions.size()].b < 0; // no way to another region that is named
+            // no way to another region that is named
+            rims += map.bends[size_t(label) - map.regions.size()].b < 0;
     constexpr size_t most = 6;
     if (words.size() > most)
         words = {words[0], words[1], words[2], fmt::format("{} more", words.size() - 3)};
@@ -80,7 +81,8 @@ private:
         return vertices;
     }
 
-    /// The region inside of a cluster with the longest border to it, over bends of the cluster or directly.
+    /// The region inside of a cluster with the longest border to it, over bends of the cluster or
+    /// directly.
     int carrier_of(const std::vector<int>& cluster, int depth) const
     {
         std::map<int, double> border;
@@ -181,7 +183,8 @@ private:
         const bool together = std::all_of(laid.begin(), laid.end(), [](char l) { return l; });
         const TargetFit* fit = carriers_.plain(result_.root);
         bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
-        constexpr double in_one_plane = 1e-7; // of the part; what lies farther off is put into the plane by a step
+        constexpr double in_one_plane = 1e-7; // of the part; what lies farther off is put into the
+                                              // plane by a step
         const bool plane = rolls && std::holds_alternative<PlaneFace>(fit->face) &&
                            fit->distance_mm <= in_one_plane * bounding_diagonal(part_);
         if (plane && !result_.steps.empty())

@@ -11,12 +11,14 @@
 namespace spia {
 namespace {
 
-/// Facets: faces in one plane, however it was cut into triangles. A coarse flat is one, a face of a fine fillet, too.
+/// Facets: faces in one plane, however it was cut into triangles. A coarse flat is one, a face of a
+/// fine fillet, too.
 struct Facets {
     std::vector<int> of;      ///< #F, numbered in the order of their first face
     std::vector<int> faces;   ///< per facet, how many
     std::vector<double> area; ///< mm2
-    std::vector<double> turn; ///< radians mm: half of what the sheet turns over the facet's edges, times their length
+    std::vector<double> turn; ///< radians mm: half of what the sheet turns over the facet's edges,
+                              ///< times their length
 };
 
 std::vector<int> numbered(DisjointSets& sets, int count)
@@ -61,8 +63,8 @@ Facets facets(const SheetTurns& turns, double most_curvature)
     return result;
 }
 
-/// Whether a face is of a bend: by its facet; but a facet of a gently curved region that only touches a bend belongs to the
-/// region, to which it turns far less than to the bend.
+/// Whether a face is of a bend: by its facet; but a facet of a gently curved region that only
+/// touches a bend belongs to the region, to which it turns far less than to the bend.
 std::vector<char> bent_faces(const SheetTurns& turns, const Facets& facets, double most_curvature)
 {
     constexpr double far_less = 0.25;
@@ -115,7 +117,8 @@ std::vector<int> first_pieces(const SheetTurns& turns, const Facets& facets, con
     return numbered(sets, count);
 }
 
-/// Pieces with their areas and common boundaries, of which one after the other is given to a neighbour.
+/// Pieces with their areas and common boundaries, of which one after the other is given to a
+/// neighbour.
 class Merging {
 public:
     Merging(const SheetTurns& turns, const std::vector<int>& piece, const std::vector<char>& bent)
@@ -244,7 +247,8 @@ void join_bends(Merging& pieces)
 
 SheetPieces sheet_pieces(const SheetTurns& turns, double side, const BendLimits& limits)
 {
-    constexpr double speck = 0.1; // even if it lies between two regions, which a sharp edge or another bend separates
+    constexpr double speck = 0.1; // even if it lies between two regions, which a sharp edge or
+                                  // another bend separates
     const double most_curvature = limits.curvature / side,
                  least = limits.least_area * side * side * (turns.smoothed ? 5 : 1);
     const Facets flat = facets(turns, most_curvature);
@@ -259,7 +263,8 @@ SheetPieces sheet_pieces(const SheetTurns& turns, double side, const BendLimits&
     give_small(pieces, least, [&](int p) {
         return !pieces.is_region(p) && (regions_beside(p) < 2 || pieces.area(p) < speck * least);
     });
-    for (size_t p = 0; p < pieces.pieces(); ++p) { // a long trough of one small radius is no bend of its borders
+    for (size_t p = 0; p < pieces.pieces(); ++p) { // a long trough of one small radius is no bend
+                                                   // of its borders
         if (!pieces.there(int(p)) || pieces.is_region(int(p)))
             continue;
         double beside = 0;

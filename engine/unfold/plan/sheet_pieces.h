@@ -12,7 +12,8 @@ struct SheetPieces {
     std::vector<char> is_region; ///< #pieces
 };
 
-/// An edge that turns more is a fold of its own: it says nothing about how the faces beside it are curved.
+/// An edge that turns more is a fold of its own: it says nothing about how the faces beside it are
+/// curved.
 constexpr double fold = 0.9;
 
 /// @param side mm, in which curvatures are counted

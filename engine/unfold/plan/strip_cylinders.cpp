@@ -12,12 +12,13 @@
 namespace spia {
 namespace {
 
-// A meshers' chords turn by 0.5 rad at most (OpenCASCADE's default; ours 20 degrees), and by more than the triangles of one plane do that
-// are rounded to six digits: 1e-4 mm over a width of 0.1 mm.
+// A meshers' chords turn by 0.5 rad at most (OpenCASCADE's default; ours 20 degrees), and by more
+// than the triangles of one plane do that are rounded to six digits: 1e-4 mm over a width of 0.1
+// mm.
 constexpr double most_turn = 0.6, least_turn = 1e-3;
-constexpr double parallel = 5e-3; // radians: rounded likewise over a length of 0.02 mm and more
-constexpr double on_circle =
-    2e-3; // of the radius: middle surfaces between skins of different chords are off by half a sagitta
+constexpr double parallel = 5e-3;  // radians: rounded likewise over a length of 0.02 mm and more
+constexpr double on_circle = 2e-3; // of the radius: middle surfaces between skins of different
+                                   // chords are off by half a sagitta
 
 /// The straight edge between two plane pieces.
 struct Ruling {
@@ -39,7 +40,8 @@ public:
 
     std::vector<StripCylinder> cylinders()
     {
-        // Chords are narrower than the flats between bends: with them first, a flat is not taken for one.
+        // Chords are narrower than the flats between bends: with them first, a flat is not taken
+        // for one.
         std::vector<std::pair<double, std::pair<int, int>>> seeds;
         for (const Ruling& r : ruling_)
             if (is_strip(r.a) && is_strip(r.b))
@@ -158,8 +160,9 @@ private:
         return faces;
     }
 
-    /// Its corners lie on the cylinder, and it looks straight away from the axis over its middle: a flat that goes on tangentially is short
-    /// enough for the first as well, but looks where it begins.
+    /// Its corners lie on the cylinder, and it looks straight away from the axis over its middle: a
+    /// flat that goes on tangentially is short enough for the first as well, but looks where it
+    /// begins.
     bool is_chord_of(const FittedCylinder& cylinder, int facet) const
     {
         const std::vector<int>& faces = faces_[size_t(facet)];
@@ -228,10 +231,12 @@ private:
         return most - least;
     }
 
-    /// Whether it is a cylinder that was cut into chords, and not a few flats that happen to lie around a circle.
+    /// Whether it is a cylinder that was cut into chords, and not a few flats that happen to lie
+    /// around a circle.
     bool is_tessellated(const std::vector<int>& facets, const std::set<int>& in, const FittedCylinder& cylinder) const
     {
-        constexpr double alike = 0.1; // of the chord; what a mesh has is its cylinder's share, but for rounding
+        constexpr double alike = 0.1; // of the chord; what a mesh has is its cylinder's share, but
+                                      // for rounding
         constexpr size_t many = 4;
         double least = std::numeric_limits<double>::infinity(), most = 0;
         for (const int facet : facets) {
@@ -262,7 +267,8 @@ private:
     const Eigen::Matrix3Xd& normal_;
     const Eigen::Matrix3Xi& neighbour_;
     bool tangential_;
-    std::vector<int> facet_;              ///< per face, its plane piece: the number of the first face of that
+    std::vector<int> facet_;              ///< per face, its plane piece: the number of the first
+                                          ///< face of that
     std::vector<std::vector<int>> faces_; ///< per facet, ascending
     std::vector<Ruling> ruling_;
     std::vector<std::vector<int>> beside_; ///< per facet: rulings

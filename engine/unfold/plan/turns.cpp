@@ -32,8 +32,9 @@ Rows faces_of_vertices(const TriMesh& mesh)
     return rows;
 }
 
-/// A vertex' height above the mean of its ring, over its mean edge, less the mean of the same of the ring: zero on a sheet of
-/// even curvature whatever its triangles, of the order of the slope of noise on a scan.
+/// A vertex' height above the mean of its ring, over its mean edge, less the mean of the same of
+/// the ring: zero on a sheet of even curvature whatever its triangles, of the order of the slope of
+/// noise on a scan.
 double roughness(const TriMesh& mesh, const std::vector<EdgeUse>& uses)
 {
     const auto count = size_t(mesh.vertices());
@@ -60,7 +61,8 @@ double roughness(const TriMesh& mesh, const std::vector<EdgeUse>& uses)
                      (length[v] / valence[v]);
     each([&](size_t a, size_t b, size_t) {
         around[a] += off[b], around[b] += off[a];
-        rim[a] |= char(2 * (rim[b] & 1)), rim[b] |= char(2 * (rim[a] & 1)); // beside the rim: its ring is half a one
+        // beside the rim: its ring is half a one
+        rim[a] |= char(2 * (rim[b] & 1)), rim[b] |= char(2 * (rim[a] & 1));
     });
     std::vector<double> unlike;
     for (size_t v = 0; v < count; ++v)
@@ -73,8 +75,8 @@ double roughness(const TriMesh& mesh, const std::vector<EdgeUse>& uses)
     return *middle;
 }
 
-/// Whether a quarter of the edges turn by nearly nothing, as those within flat strips do on a mesh without noise. However coarse
-/// that is at its bends: on a scan every edge turns a little.
+/// Whether a quarter of the edges turn by nearly nothing, as those within flat strips do on a mesh
+/// without noise. However coarse that is at its bends: on a scan every edge turns a little.
 bool strips(const Eigen::Matrix3Xd& normal, const std::vector<EdgeUse>& uses, double nothing)
 {
     size_t inner = 0, straight = 0;

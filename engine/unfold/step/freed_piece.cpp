@@ -32,7 +32,8 @@ struct Around {
 std::vector<Around> around_vertices(const TriMesh& part, const std::vector<Role>& role)
 {
     std::vector<Around> around(size_t(part.vertices()));
-    for (int f = part.triangles() - 1; f >= 0; --f) // the first face of a role is the one that is named
+    for (int f = part.triangles() - 1; f >= 0; --f) // the first face of a role is the one that is
+                                                    // named
         for (const int v : part.triangle.col(f))
             around[size_t(v)].face[size_t(role[size_t(f)])] = f;
     return around;

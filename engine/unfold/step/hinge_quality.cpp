@@ -13,8 +13,9 @@
 namespace spia {
 namespace {
 
-/// Per vertex: the greatest angle between neighbours of its faces, theirs across the edge opposite to it among them. Where they turn
-/// as far as no facet of a bend does there is a sharp edge, which is no chord.
+/// Per vertex: the greatest angle between neighbours of its faces, theirs across the edge opposite
+/// to it among them. Where they turn as far as no facet of a bend does there is a sharp edge, which
+/// is no chord.
 Eigen::VectorXd facet_turns(const TriMesh& state, const std::vector<int>& faces)
 {
     constexpr double most_facet = 0.8; // twice what fit_target() lets a chord turn from its arc
@@ -51,7 +52,8 @@ TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const s
     for (const int f : fixed) {
         const Eigen::Matrix3d c = state.position(Eigen::all, state.triangle.col(f));
         const Eigen::Vector3d normal = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
-        double chord = 0; // not every vertex on the hinge of a fillet has one of its faces' long edges
+        double chord = 0; // not every vertex on the hinge of a fillet has one of its faces' long
+                          // edges
         for (const int v : state.triangle.col(f))
             if (held[size_t(v)])
                 chord = std::max(chord, turn[v] / 2);

@@ -6,12 +6,14 @@
 
 namespace spia {
 
-/// How well a target goes on from the fixed faces where freed ones are joined to them: its greatest distance from the held vertices,
-/// and the greatest angle between its normals there and those of the fixed faces around them, less what is only the chord of a
-/// bend: half of what the fixed faces around a held vertex turn from one to the next.
+/// How well a target goes on from the fixed faces where freed ones are joined to them: its greatest
+/// distance from the held vertices, and the greatest angle between its normals there and those of
+/// the fixed faces around them, less what is only the chord of a bend: half of what the fixed faces
+/// around a held vertex turn from one to the next.
 /// @param state the part as it is before the step
 /// @param fixed ascending
-/// @throws InputError if a held vertex is farther beside the target than 1e-3 of the part; names a fixed face there
+/// @throws InputError if a held vertex is farther beside the target than 1e-3 of the part; names a
+/// fixed face there
 TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const std::vector<int>& fixed,
                         const std::vector<FreedPiece>& pieces);
 

@@ -29,7 +29,8 @@ struct Landed {
 
 std::vector<int> faces_on(const TriMesh& now, const TargetSurface& target, double within_mm)
 {
-    constexpr double along = 0.9; // cosine between the normals: a face that only crosses the target is not on it
+    constexpr double along = 0.9; // cosine between the normals: a face that only crosses the target
+                                  // is not on it
     std::vector<char> near(size_t(now.vertices()));
     for (int v = 0; v < now.vertices(); ++v) {
         const Eigen::Vector3d x = now.position.col(v);
@@ -60,7 +61,8 @@ TargetSurface best_cut(const TriMesh& now, const TargetSurface& target, const st
     return turned_towards(target, corner, edges).value_or(target);
 }
 
-/// Faces that share an edge share its vertices; fans that touch in a vertex only have each their own.
+/// Faces that share an edge share its vertices; fans that touch in a vertex only have each their
+/// own.
 Landed developed_faces(const TriMesh& now, const TargetSurface& target, const std::vector<int>& faces)
 {
     const auto place = [&](int v) { return developed(target, now.position.col(v)); };
@@ -134,7 +136,8 @@ struct Moved {
     bool edge(const std::array<int, 2>& e) const { return outline.count(std::minmax(e[0], e[1])) > 0; }
 };
 
-/// A vertex of every piece that lies within another one, though no outline of it meets another's, and the face it lies on.
+/// A vertex of every piece that lies within another one, though no outline of it meets another's,
+/// and the face it lies on.
 std::vector<std::pair<int, int>> nested(const Landed& landed, const std::set<int>& crossing)
 {
     std::vector<std::pair<int, int>> found;

@@ -14,7 +14,8 @@
 namespace spia {
 namespace {
 
-/// Sheet that goes around once and is cut somewhere: one side of the cut is where the other is, a turn away.
+/// Sheet that goes around once and is cut somewhere: one side of the cut is where the other is, a
+/// turn away.
 /// @param edges between the held vertices
 PiecePicture around_once(const TargetSurface& target, Eigen::Matrix2Xd held,
                          const std::vector<std::array<int, 2>>& edges)
@@ -26,7 +27,8 @@ PiecePicture around_once(const TargetSurface& target, Eigen::Matrix2Xd held,
     Eigen::VectorXd angle(out.held.cols());
     for (Eigen::Index k = 0; k < angle.size(); ++k)
         angle[k] = std::atan2(-out.held(0, k), out.held(1, k));
-    // A cone's development is less than a turn wide: its middle comes to the middle, by the way from the first vertex.
+    // A cone's development is less than a turn wide: its middle comes to the middle, by the way
+    // from the first vertex.
     const double around = middle_around(angle, edges).value_or(angle[0]),
                  middle = angle[0] - std::remainder(angle[0] - around, 2 * std::numbers::pi),
                  turn = (cone->bulges ? -1 : 1) * middle / std::sin(cone->half_angle);

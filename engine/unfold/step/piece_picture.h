@@ -5,8 +5,8 @@
 
 namespace spia {
 
-/// How a freed piece is told in the plane: by the development of its target, or where the hinge goes all the way around, by a picture of
-/// it that is not cut.
+/// How a freed piece is told in the plane: by the development of its target, or where the hinge
+/// goes all the way around, by a picture of it that is not cut.
 struct PiecePicture {
     TargetSurface target; ///< its development whole around the hinge
     std::optional<RingChart> ring;

@@ -18,7 +18,8 @@
 namespace spia {
 namespace {
 
-/// The fixed faces beside the hinge, those first that share a vertex with it, then those beside them.
+/// The fixed faces beside the hinge, those first that share a vertex with it, then those beside
+/// them.
 std::vector<std::vector<int>> fixed_rings(const TriMesh& part, const std::vector<int>& fixed, const FreedPiece& piece)
 {
     std::vector<std::vector<int>> faces_at(size_t(part.vertices()));
@@ -49,7 +50,8 @@ std::vector<std::vector<int>> fixed_rings(const TriMesh& part, const std::vector
     return rings;
 }
 
-/// The piece with some fixed faces beside it, as it is in the state. Vertices and faces of the piece come first.
+/// The piece with some fixed faces beside it, as it is in the state. Vertices and faces of the
+/// piece come first.
 TriMesh with_beside(const TriMesh& part, const Eigen::Matrix3Xd& state, const FreedPiece& piece,
                     const std::vector<int>& beside)
 {
@@ -87,8 +89,8 @@ bool is_sheet(const TriMesh& mesh)
     return even && *std::max_element(rims.begin(), rims.end()) <= 2 && surface_type(mesh).sheet();
 }
 
-/// Which fixed faces to take along, what promises most first: a band holds the hinge in shape and costs little; a whole fixed
-/// region tells which of a ring's two edges is the outer one.
+/// Which fixed faces to take along, what promises most first: a band holds the hinge in shape and
+/// costs little; a whole fixed region tells which of a ring's two edges is the outer one.
 std::vector<std::vector<int>> choices(const std::vector<std::vector<int>>& rings, const FreedPiece& piece)
 {
     constexpr size_t band_rings = 3, much = 3;

@@ -13,13 +13,15 @@ struct PieceStart {
     StartMethod method;
 };
 
-/// By the shape of the state alone, so it does not matter how far the piece is bent: the first guess of flatten() for the piece
-/// and fixed faces beside it, as rigid as possible, moved onto the held vertices as a whole; then springs that grow stiffer draw these
-/// to their places while the work of forming keeps every triangle from turning over.
+/// By the shape of the state alone, so it does not matter how far the piece is bent: the first
+/// guess of flatten() for the piece and fixed faces beside it, as rigid as possible, moved onto the
+/// held vertices as a whole; then springs that grow stiffer draw these to their places while the
+/// work of forming keeps every triangle from turning over.
 /// @param state  3 by #V of the part, mm
 /// @param fixed  faces of the part, ascending
 /// @param context    of the piece; `external.held` says where its held vertices lie
-/// @param measure  called with a place of the piece: takes the lengths of the target there into the elements of the context
+/// @param measure  called with a place of the piece: takes the lengths of the target there into the
+/// elements of the context
 /// @throws SolveError if there is none: names the face whose triangle stands in the way
 PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
                        const FreedPiece& piece, const SolveContext& context,

@@ -23,16 +23,20 @@ struct BlankFigures {
 struct PolishedBlank {
     FlattenResult whole; ///< its blank lies on the multi-step one as nearly as it can, area by area
     BlankFigures steps, polished;
-    double outline_distance_mm;      ///< greatest of a vertex of either outline from the other outline
+    double outline_distance_mm;      ///< greatest of a vertex of either outline from the other
+                                     ///< outline
     double outline_distance_mean_mm; ///< mean over the vertices of both outlines
-    std::vector<std::string> worse;  ///< in what the polished blank is worse than that of the steps; empty: in nothing
+    std::vector<std::string> worse;  ///< in what the polished blank is worse than that of the
+                                     ///< steps; empty: in nothing
 };
 
-/// Solves the whole part at once, started from the blank that its steps gave. The steps held each region in its turn; now all
-/// material may move. Both blanks are kept: neither is the true one where the part was made in several hits.
+/// Solves the whole part at once, started from the blank that its steps gave. The steps held each
+/// region in its turn; now all material may move. Both blanks are kept: neither is the true one
+/// where the part was made in several hits.
 /// @param run     of this part
 /// @param options those of the run
-/// @throws InputError if the run gave no blank, or one with flipped triangles; SolveError as flatten()
+/// @throws InputError if the run gave no blank, or one with flipped triangles; SolveError as
+/// flatten()
 PolishedBlank polish(const TriMesh& part, const UnfoldRun& run, const FlattenOptions& options,
                      const Progress& progress = {});
 

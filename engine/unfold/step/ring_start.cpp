@@ -33,8 +33,8 @@ std::vector<char> far_edges(const FreedPiece& piece, const Eigen::VectorXd& angl
     return out;
 }
 
-/// One coordinate that is harmonic where it is not given. @param jump per edge what it grows by from the lower vertex to the higher
-/// one beyond the difference of the two
+/// One coordinate that is harmonic where it is not given. @param jump per edge what it grows by
+/// from the lower vertex to the higher one beyond the difference of the two
 Eigen::VectorXd harmonic(const std::vector<std::array<int, 2>>& edges, const Eigen::VectorXd& weight,
                          const Eigen::VectorXd& jump, const std::vector<char>& given, Eigen::VectorXd value)
 {

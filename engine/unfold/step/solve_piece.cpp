@@ -45,7 +45,8 @@ FlattenOptions options_of(const FreedPiece& piece, FlattenOptions options)
     return options;
 }
 
-/// As steps before have left it, if that is seen whole along the normal: a start that flatten() may not find from the part.
+/// As steps before have left it, if that is seen whole along the normal: a start that flatten() may
+/// not find from the part.
 std::optional<Eigen::Matrix2Xd> seen_start(const FreedPiece& piece, const Eigen::Matrix3Xd& now,
                                            const Eigen::Vector3d& normal)
 {
@@ -112,7 +113,8 @@ std::vector<ContactRegion> rubbing(const FreedPiece& piece, const Eigen::Matrix3
             fmt::format("the freed faces around face {} are joined to no fixed face and not as they are in the "
                         "part: what rubs on them cannot be told; leave out the friction, or fix some",
                         piece.face[0]));
-    ContactRegion region{"the target", {}, traction.maxCoeff(), {}, 0.5, 2}; // both sides together: the traction itself
+    // both sides together: the traction itself
+    ContactRegion region{"the target", {}, traction.maxCoeff(), {}, 0.5, 2};
     for (int f = 0; f < piece.mesh.triangles(); ++f)
         if (traction[f] > 0)
             region.faces.push_back(f);
@@ -160,7 +162,8 @@ void take_lengths(const FreedPiece& piece, const PiecePicture& picture, const Ei
     });
 }
 
-/// Solves anew with the lengths where the piece has come to lie, until it lies where they were taken.
+/// Solves anew with the lengths where the piece has come to lie, until it lies where they were
+/// taken.
 /// @param X the solution with other lengths
 /// @param face what it lies on, in words
 Eigen::Matrix2Xd in_rounds(const SolveContext& context, const std::function<void(const Eigen::Matrix2Xd&)>& measure,
@@ -185,8 +188,8 @@ Eigen::Matrix2Xd in_rounds(const SolveContext& context, const std::function<void
             report.converged = solved.ended == Ended::converged;
             next = std::move(solved.position);
         } else {
-            const double share =
-                std::exchange(report.process_share, 1); // of the forces: of it the context has all by now
+            // of the forces: of it the context has all by now
+            const double share = std::exchange(report.process_share, 1);
             next = solve(context, X, report, mine);
             report.process_share *= share;
             add_share(report);

@@ -18,7 +18,8 @@ namespace {
 
 using Axes = Eigen::Matrix<double, 3, 2>;
 
-/// The feet of the piece, from edge to edge: a development that is cut does not cut the piece. @param held of the first held vertex
+/// The feet of the piece, from edge to edge: a development that is cut does not cut the piece.
+/// @param held of the first held vertex
 Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const TargetSurface& target,
                       const Eigen::Vector2d& held)
 {
@@ -30,7 +31,8 @@ Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, cons
     const Eigen::Vector2d first = foot->col(piece.held.front());
     if (!std::holds_alternative<ConeFace>(target))
         return foot->colwise() + (held - first);
-    const double turn = std::atan2(first[0] * held[1] - first[1] * held[0], first.dot(held)); // once around the axis
+    // once around the axis
+    const double turn = std::atan2(first[0] * held[1] - first[1] * held[0], first.dot(held));
     return Eigen::Rotation2Dd(turn).toRotationMatrix() * *foot;
 }
 
@@ -48,7 +50,8 @@ Axes tangent_axes(const Eigen::Vector3d& normal)
     return (Axes() << u, normal.cross(u)).finished();
 }
 
-/// Per vertex how ways in the tangent plane of the state lie in that of the part: as the faces around it are turned in the mean.
+/// Per vertex how ways in the tangent plane of the state lie in that of the part: as the faces
+/// around it are turned in the mean.
 std::vector<Eigen::Matrix3d> state_to_part(const TriMesh& part, const Eigen::Matrix3Xd& part_normal,
                                            const TriMesh& state, const Eigen::Matrix3Xd& state_normal)
 {

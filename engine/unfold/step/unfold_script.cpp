@@ -69,7 +69,8 @@ std::optional<TargetSurface> target_of(const TriMesh& now, const PlannedStep& st
             throw InputError("nothing carries the target; name the faces that do, or give one");
         const double within = std::max(1e-4, step.within_mm / diagonal(now, faces));
         std::optional<TargetFit> fit = fit_target(now, faces, within);
-        if (!fit && step.kind == UnfoldKind::lay && step.within_mm == 0) // as unfold_step() does where nothing is moved
+        // as unfold_step() does where nothing is moved
+        if (!fit && step.kind == UnfoldKind::lay && step.within_mm == 0)
             fit = fit_height(now, faces);
         if (!fit)
             throw InputError(fmt::format("the carrying faces around face {} lie on no plane, cylinder or cone within "
@@ -95,7 +96,8 @@ PlaneFace mean_plane(const TriMesh& now)
     return {now.position.rowwise().mean(), axes};
 }
 
-/// The chords of the mesh are laid out as the arcs over them: what that strains is told by the fields.
+/// The chords of the mesh are laid out as the arcs over them: what that strains is told by the
+/// fields.
 void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& options, UnfoldState& state)
 {
     constexpr double beside = 1e-3, own_plane = 1e-9; // of the part
@@ -130,7 +132,8 @@ void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& 
         landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part), step.pick.freed);
 }
 
-/// How far beside the target what lies on it is: as far as what carries it, and no less than rounding.
+/// How far beside the target what lies on it is: as far as what carries it, and no less than
+/// rounding.
 double carried_within(const Eigen::Matrix3Xd& position, const TriMesh& part, const PlannedStep& step,
                       const UnfoldStepResult& result)
 {
@@ -250,8 +253,8 @@ TargetSurface moved_out(const TargetSurface& face, double mm)
                                          cylinder->radius, mm));
         return moved;
     }
-    if (const auto* height =
-            std::get_if<HeightFace>(&face)) { // along its plane's normal: nearly square to a flat-ish face
+    // along its plane's normal: nearly square to a flat-ish face
+    if (const auto* height = std::get_if<HeightFace>(&face)) {
         HeightFace moved = *height;
         moved.origin += mm * moved.axes.col(0).cross(moved.axes.col(1));
         return moved;

@@ -58,7 +58,8 @@ Eigen::Vector2d box_of(const Eigen::Matrix2d& turn, const Eigen::Matrix2Xd& hull
     return turned.rowwise().maxCoeff() - turned.rowwise().minCoeff();
 }
 
-/// An edge of the outline: its direction from 0 to a quarter turn (what is square to it counts alike), and its length.
+/// An edge of the outline: its direction from 0 to a quarter turn (what is square to it counts
+/// alike), and its length.
 struct Side {
     double angle, length;
 };
@@ -75,7 +76,8 @@ std::vector<Window> longest_windows(const std::vector<Side>& sides, double width
     const size_t count = sides.size();
     std::vector<Window> windows;
     double longest = 0;
-    // A sum that goes on forward and back would depend on where it begins; the prefix sums of one walk round do not drift.
+    // A sum that goes on forward and back would depend on where it begins; the prefix sums of one
+    // walk round do not drift.
     std::vector<double> length(2 * count + 1, 0), moment(2 * count + 1, 0);
     const auto angle = [&](size_t i) { return sides[i % count].angle + (i >= count ? quarter : 0); };
     for (size_t i = 0; i < 2 * count; ++i) {
@@ -96,14 +98,17 @@ std::vector<Window> longest_windows(const std::vector<Side>& sides, double width
     return windows;
 }
 
-/// The directions, to a quarter turn, along which the longest straight edges lie; none: no straight edge is long.
+/// The directions, to a quarter turn, along which the longest straight edges lie; none: no straight
+/// edge is long.
 std::vector<double> straight_directions(const Eigen::Matrix2Xd& rim)
 {
     constexpr double straight =
         1 * std::numbers::pi / 180; // edges of a drawn blank bend by less where they look straight
-    constexpr double exact = straight / 50, mostly = 0.5; // edges of a bracket; else it is their mean
+    constexpr double exact = straight / 50, mostly = 0.5; // edges of a bracket; else it is their
+                                                          // mean
     constexpr double least = 0.25;                        // of the outline
-    constexpr double nearly = 0.98;                       // as long: the smaller box decides between them
+    constexpr double nearly = 0.98;                       // as long: the smaller box decides
+                                                          // between them
     std::vector<Side> sides;
     double whole = 0;
     for (Eigen::Index k = 0; k < rim.cols(); ++k) {
@@ -136,7 +141,8 @@ std::vector<double> straight_directions(const Eigen::Matrix2Xd& rim)
     return directions;
 }
 
-/// Those of some directions whose box is the smallest: several where the shape is symmetric, of a round one a few.
+/// Those of some directions whose box is the smallest: several where the shape is symmetric, of a
+/// round one a few.
 std::vector<double> smallest_boxes(const std::vector<double>& directions, const Eigen::Matrix2Xd& hull)
 {
     constexpr double rounding = 1e-9;
@@ -237,8 +243,8 @@ std::vector<Way> ways_round(const TriMesh& part, const Eigen::Matrix2Xd& flat, c
 /// How near two turns are, up to a factor the cosine of what lies between them.
 double likeness(const Eigen::Matrix2d& a, const Eigen::Matrix2d& b) { return a.cwiseProduct(b).sum(); }
 
-/// The way that the rule takes. @param moment  of where the shape came to lie with itself as it is: of symmetric ways the one
-/// nearest to that is taken
+/// The way that the rule takes. @param moment of where the shape came to lie with itself as it is:
+/// of symmetric ways the one nearest to that is taken
 Way chosen_way(std::vector<Way> ways, const Eigen::Matrix2d& moment)
 {
     constexpr double alike = 1e-6; // what a solver leaves of a symmetry is less
@@ -304,7 +310,8 @@ Eigen::Matrix2Xd LiveUpright::operator()(const Eigen::Matrix2Xd& flat)
 {
     if (loops_.empty())
         return flat;
-    // The turn that brings the shape nearest to where it is seen is the rotation in this moment. [Kabsch 1976 in the plane]
+    // The turn that brings the shape nearest to where it is seen is the rotation in this moment.
+    // [Kabsch 1976 in the plane]
     const Eigen::Matrix2d moment = seen_ * flat.transpose();
     Eigen::Matrix2d turn;
     if (!std::exchange(any_, true))

@@ -19,7 +19,8 @@ using Vector16d = Eigen::Matrix<double, 16, 1>;
 /// The products of the splines of both ways, those of x fastest.
 Vector16d product(const Eigen::Vector4d& x, const Eigen::Vector4d& y) { return (x * y.transpose()).reshaped(); }
 
-/// Of one cell with sides of length 1: integral of z_xx^2 + 2 z_xy^2 + z_yy^2, by Gauss's four points either way.
+/// Of one cell with sides of length 1: integral of z_xx^2 + 2 z_xy^2 + z_yy^2, by Gauss's four
+/// points either way.
 Matrix16d bending()
 {
     constexpr std::array<double, 2> at = {0.3399810435848563, 0.8611363115940526},
@@ -84,8 +85,9 @@ Region region_of(const TriMesh& part, const std::vector<int>& faces)
 
 std::optional<TargetFit> fit_height(const TriMesh& part, const std::vector<int>& faces)
 {
-    // A stiff plate is flat at its edges, by about 1e-5 of the region here; a soft one swings beside what the knots do not resolve, and
-    // goes on from there the wrong way: with 1e-12 and 32 cells by 13 degrees beside a fender's feature line.
+    // A stiff plate is flat at its edges, by about 1e-5 of the region here; a soft one swings
+    // beside what the knots do not resolve, and goes on from there the wrong way: with 1e-12 and 32
+    // cells by 13 degrees beside a fender's feature line.
     constexpr double cells_along = 64, bending_share = 1e-10;
     const Region region = region_of(part, faces);
     if (!region.seen_whole)
@@ -112,7 +114,8 @@ std::optional<TargetFit> fit_height(const TriMesh& part, const std::vector<int>&
         for (int k = 0; k < 16; ++k)
             right[unknown(cell, k)] += region.weight[v] * height[v] * b[k];
     }
-    // Both terms without dimension: distances in units of the region, so that its size does not matter.
+    // Both terms without dimension: distances in units of the region, so that its size does not
+    // matter.
     const double size = side.norm(), stiff = bending_share * size * size / (face.spacing * face.spacing);
     const Matrix16d plate = stiff * bending();
     std::vector<Eigen::Triplet<double>> entry;
@@ -135,7 +138,8 @@ std::optional<TargetFit> fit_height(const TriMesh& part, const std::vector<int>&
     for (const int f : faces) {
         const Eigen::Matrix3d x = part.position(Eigen::all, part.triangle.col(f));
         const Eigen::Vector3d m = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0));
-        for (const auto& corner : x.colwise()) { // at its middle a chord has the normal of its arc, however long it is
+        for (const auto& corner : x.colwise()) { // at its middle a chord has the normal of its arc,
+                                                 // however long it is
             const Eigen::Vector3d n = outer_normal(fit.face, corner);
             fit.angle = std::max(fit.angle, std::atan2(n.cross(m).norm(), n.dot(m)));
         }

@@ -73,7 +73,8 @@ Eigen::Vector3d leaned(const Eigen::Vector3d& axis, double a, double b)
     return (axis + a * x + b * y).normalized();
 }
 
-/// Least squares of the vertices' distances over a few numbers that begin at zero, in units of the region's size.
+/// Least squares of the vertices' distances over a few numbers that begin at zero, in units of the
+/// region's size.
 template <class Make> struct Distances : Eigen::DenseFunctor<double> {
     Distances(const Region& r, int numbers, const Make& m)
         : Eigen::DenseFunctor<double>(numbers, int(r.vertex.cols())), region(r), make(m)
@@ -130,7 +131,8 @@ bool looks_away(const Region& region, const Eigen::Vector3d& origin, const Eigen
     return sum > 0;
 }
 
-/// The normals are square to the axis; seen along it the vertices lie on a circle. [Kasa 1976 for a first one]
+/// The normals are square to the axis; seen along it the vertices lie on a circle. [Kasa 1976 for a
+/// first one]
 TargetSurface cylinder(const Region& region)
 {
     const Eigen::Vector3d axis = normal_axes(region, Eigen::Vector3d::Zero()).col(0), x = axis.unitOrthogonal(),
@@ -186,8 +188,8 @@ TargetFit judged(const Region& region, const TargetSurface& face)
         fit.distance_mm = std::max(fit.distance_mm, (x - placed(face, developed(face, x))).norm());
     }
     for (Eigen::Index f = 0; f < region.normal.cols(); ++f)
-        for (const int v :
-             region.corner.col(f)) { // at its middle a chord has the normal of its arc, however long it is
+        for (const int v : region.corner.col(f)) { // at its middle a chord has the normal of its
+                                                   // arc, however long it is
             const Eigen::Vector3d n = outer_normal(face, region.vertex.col(v)), m = region.normal.col(f);
             fit.angle = std::max(fit.angle, std::atan2(n.cross(m).norm(), n.dot(m)));
         }

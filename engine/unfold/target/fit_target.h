@@ -11,10 +11,12 @@ namespace spia {
 struct TargetFit {
     TargetSurface face;
     double distance_mm; ///< greatest of the region's vertices
-    double angle;       ///< radians, greatest between its faces' normals and the face's at their corners
+    double angle;       ///< radians, greatest between its faces' normals and the face's at their
+                        ///< corners
 };
 
-/// The simplest of plane, cylinder and cone on which the vertices of a region lie, to a share of the region's size.
+/// The simplest of plane, cylinder and cone on which the vertices of a region lie, to a share of
+/// the region's size.
 /// @param faces     of the part, each once
 /// @param tolerance of the distance, a share of the region's diagonal
 /// @returns none if the region is no such face

@@ -5,7 +5,8 @@
 
 namespace spia {
 
-// Targets that are given by numbers. unfold_step() sees to it that their outer side is that of what they carry.
+// Targets that are given by numbers. unfold_step() sees to it that their outer side is that of what
+// they carry.
 
 /// @param origin mm; @param normal of any length above 0
 PlaneFace given_plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal);

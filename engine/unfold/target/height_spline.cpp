@@ -46,7 +46,8 @@ Height height_at(const HeightFace& face, const Eigen::Vector2d& place)
     const Eigen::Vector2d beyond = place - inside;
     if (beyond.isZero(0))
         return out;
-    // Straight on from the border; across a corner the twist goes on, too, so that the slope is the value's own everywhere.
+    // Straight on from the border; across a corner the twist goes on, too, so that the slope is the
+    // value's own everywhere.
     const double twist = bx.first.dot(c * by.first) / (face.spacing * face.spacing);
     out.value += out.slope.dot(beyond) + twist * beyond[0] * beyond[1];
     if (beyond[0] != 0)

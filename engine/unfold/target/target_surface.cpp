@@ -8,7 +8,8 @@
 namespace spia {
 namespace {
 
-/// A point in the half plane through the axis: along the axis, away from it, and the angle of the half plane.
+/// A point in the half plane through the axis: along the axis, away from it, and the angle of the
+/// half plane.
 struct AboutAxis {
     double along, off, angle;
     Eigen::Vector3d out; ///< unit vector away from the axis

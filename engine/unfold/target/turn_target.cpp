@@ -59,7 +59,8 @@ bool turn_to(const Around& face, const Eigen::Matrix3Xd& point, const std::vecto
     return true;
 }
 
-/// Per point how many turns it is beyond where its angle is counted, along the edges from point 0; none: of a closed way some are left.
+/// Per point how many turns it is beyond where its angle is counted, along the edges from point 0;
+/// none: of a closed way some are left.
 std::optional<std::vector<int>> turns_along(const Eigen::VectorXd& angle, const std::vector<std::array<int, 2>>& edges)
 {
     std::vector<std::vector<int>> beside(size_t(angle.size()));
@@ -113,7 +114,8 @@ TargetSurface turned_over(const TargetSurface& face)
     TargetSurface out = face;
     if (auto* plane = std::get_if<PlaneFace>(&out))
         plane->axes = plane->axes.rowwise().reverse().eval();
-    else if (auto* height = std::get_if<HeightFace>(&out)) { // x and y change places, and up is down
+    else if (auto* height = std::get_if<HeightFace>(&out)) { // x and y change places, and up is
+                                                             // down
         height->axes = height->axes.rowwise().reverse().eval();
         height->corner = height->corner.reverse().eval();
         height->coefficient = -height->coefficient.transpose().eval();

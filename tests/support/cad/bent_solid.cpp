@@ -255,7 +255,8 @@ TopoDS_Shape stamped(const TopoDS_Shape& shape, const BentSolid& solid, const Pr
     TopoDS_Shape column = prism(stamp.outline.at(0));
     for (size_t i = 1; i < stamp.outline.size(); ++i)
         column = BRepAlgoAPI_Cut(column, prism(stamp.outline[i])).Shape();
-    const double level = t / 2 - stamp.depth, beyond = t / 2 + (stamp.depth > 0 ? 0.3 : -0.3) * t; // no faces on faces
+    // no faces on faces
+    const double level = t / 2 - stamp.depth, beyond = t / 2 + (stamp.depth > 0 ? 0.3 : -0.3) * t;
     const TopoDS_Shape mark = BRepAlgoAPI_Common(column, layer(solid, profile, out * level, out * beyond)).Shape();
     return stamp.depth > 0 ? BRepAlgoAPI_Cut(shape, mark).Shape() : BRepAlgoAPI_Fuse(shape, mark).Shape();
 }

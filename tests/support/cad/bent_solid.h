@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// Solids of bent sheet as a CAD system makes them, and their developed lengths in closed form. They need OpenCASCADE: a library of their
-/// own, spia_cad_support.
+/// Solids of bent sheet as a CAD system makes them, and their developed lengths in closed form.
+/// They need OpenCASCADE: a library of their own, spia_cad_support.
 namespace spia::shapes {
 
 struct SolidBend {
@@ -14,10 +14,12 @@ struct SolidBend {
     double angle;        ///< radians, positive to the left of the section
 };
 
-/// A rectangle with rounded corners that is cut through a leg, or into its left side. Slots and circles are some of them.
+/// A rectangle with rounded corners that is cut through a leg, or into its left side. Slots and
+/// circles are some of them.
 struct Cutout {
     int leg = 0;
-    Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, from where the leg begins along it, and along y
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, from where the leg begins along it,
+                                                      ///< and along y
     double length = 10, width = 10, radius = 5;       ///< mm; the radius half the width at most
     double turn = 0;                                  ///< radians, of its length against the leg
     double depth = 0;                                 ///< mm, of an engraving; 0: all through
@@ -29,7 +31,8 @@ struct Sink {
     int leg = 0;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, as of a cutout
     double hole = 3, wide = 6;                        ///< mm, radii
-    double depth = 1;                                 ///< mm, from that side to where the hole has its radius
+    double depth = 1;                                 ///< mm, from that side to where the hole has
+                                                      ///< its radius
     bool counterbore = false;
     bool left = true; ///< the side at which it is wider
 };
@@ -37,19 +40,23 @@ struct Sink {
 /// A mark of even depth on the outer side of a bend and of the legs beside it.
 struct Stamp {
     int bend = 0;
-    /// Loops of corners, mm, the first one around the others, which are islands: from the middle of the bend across it and along y from
-    /// y = 0, seen along the half of its angle.
+    /// Loops of corners, mm, the first one around the others, which are islands: from the middle of
+    /// the bend across it and along y from y = 0, seen along the half of its angle.
     std::vector<std::vector<Eigen::Vector2d>> outline = {};
     double depth = 0.2; ///< mm; below zero: raised
 };
 
-/// A round or long emboss in a leg, of sheet that is as thick there: a flat, two radii and a slope between them.
+/// A round or long emboss in a leg, of sheet that is as thick there: a flat, two radii and a slope
+/// between them.
 struct Emboss {
     int leg = 0;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, as of a cutout
-    double flat = 5;                                  ///< mm, from the middle of the emboss to where the flat ends
-    double radius = 3, slope = 0.6, ramp = 1;         ///< mm, of the middle of the sheet; radians; mm
-    double length = 0;                                ///< mm, between the middles of its round ends; 0: round
+    double flat = 5;                                  ///< mm, from the middle of the emboss to
+                                                      ///< where the flat ends
+    double radius = 3, slope = 0.6, ramp = 1;         ///< mm, of the middle of the sheet; radians;
+                                                      ///< mm
+    double length = 0;                                ///< mm, between the middles of its round
+                                                      ///< ends; 0: round
     double turn = 0;                                  ///< radians, of its length against the leg
     bool left = true;                                 ///< rises to that side
 };
@@ -57,8 +64,8 @@ struct Emboss {
 /// What is milled through a bend once it is bent: a straight prism whose outline is a Cutout's.
 struct BendCut {
     int bend = 0;
-    double share =
-        0.5; ///< of the bend's arc: where the middle of the prism crosses the middle of the sheet; outside 0 to 1 on a leg
+    double share = 0.5;  ///< of the bend's arc: where the middle of the prism crosses the middle of
+                         ///< the sheet; outside 0 to 1 on a leg
     double y = 0;        ///< mm
     Cutout outline = {}; ///< its length, width, radius and turn; its length across the bend
     double lean = 0;     ///< radians, of the prism against the sheet's normal there, along the bend
@@ -72,8 +79,9 @@ struct BentSolid {
     double width = 30;           ///< mm, along the bends
     std::vector<double> leg;     ///< mm, flat: one more than bends
     std::vector<SolidBend> bend; ///< in their order
-    bool hole = false;      ///< a round hole through the middle of the first bend, seen along the half of its angle
-    double hole_radius = 0; ///< mm, of it; 0: somewhat broader than the bend
+    bool hole = false;           ///< a round hole through the middle of the first bend, seen along
+                                 ///< the half of its angle
+    double hole_radius = 0;      ///< mm, of it; 0: somewhat broader than the bend
 
     std::vector<Cutout> cutout = {};
     std::vector<Sink> sink = {};
@@ -86,21 +94,26 @@ struct BentSolid {
     double developed(double k) const;
 };
 
-/// One of a family drawn at random: 1 to 8 bends of 1 to 180 degrees, R/t from 0.1 to 20, no section that touches itself.
+/// One of a family drawn at random: 1 to 8 bends of 1 to 180 degrees, R/t from 0.1 to 20, no
+/// section that touches itself.
 BentSolid random_bent_solid(std::uint64_t seed);
 
-/// 1 to 3 bends of 20 to 110 degrees, R/t from 0.3 to 10, each with a hole, a slot, an oblique hole, a notch or a V notch through it or over
-/// one of its ends, of which its legs' free ends keep clear: length and width of the blank are those without them.
+/// 1 to 3 bends of 20 to 110 degrees, R/t from 0.3 to 10, each with a hole, a slot, an oblique
+/// hole, a notch or a V notch through it or over one of its ends, of which its legs' free ends keep
+/// clear: length and width of the blank are those without them.
 BentSolid random_cut_bends(std::uint64_t seed);
 
-/// A bend of 30 to 125 degrees, R/t from 0.2 to 1, with a round hole through it that is 0.6 to 1.6 times as wide as its arc in the middle of
-/// the sheet: on one skin, on both or on none the hole is wider than the bend.
+/// A bend of 30 to 125 degrees, R/t from 0.2 to 1, with a round hole through it that is 0.6 to 1.6
+/// times as wide as its arc in the middle of the sheet: on one skin, on both or on none the hole is
+/// wider than the bend.
 BentSolid random_wide_hole(std::uint64_t seed);
 
-/// 1 or 2 bends of 25 to 110 degrees, R/t from 0.5 to 5, among them joggles, with round and long embosses in the legs.
+/// 1 or 2 bends of 25 to 110 degrees, R/t from 0.5 to 5, among them joggles, with round and long
+/// embosses in the legs.
 BentSolid random_embossed_bracket(std::uint64_t seed);
 
-/// The solid's surface as a mesher makes it, in binary STL. @param chord  radians, at most, of bends and holes
+/// The solid's surface as a mesher makes it, in binary STL. @param chord radians, at most, of bends
+/// and holes
 void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord);
 
 enum class CadForm { step, brep, stl }; ///< stl: chords of 0.2 radians at most, within 0.05 mm

@@ -125,7 +125,8 @@ struct Box {
 
 TopoDS_Shape made(const Box& box, double t)
 {
-    // The walls are as thick as the bottom: the inner block begins at height t, where the leaning wall is farther out.
+    // The walls are as thick as the bottom: the inner block begins at height t, where the leaning
+    // wall is farther out.
     const double in = t / std::cos(box.lean) - t * std::tan(box.lean);
     const TopoDS_Shape outer = block(box.length, box.width, box.corner, box.bottom, box.height, 0, box.lean),
                        inner = block(box.length - 2 * in, box.width - 2 * in, box.corner - in, box.bottom - t,

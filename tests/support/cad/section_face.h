@@ -4,7 +4,8 @@
 
 #include "tests/support/profile.h"
 
-/// Sections of sheet around a profile in the xz plane, for solids that OpenCASCADE sweeps or revolves.
+/// Sections of sheet around a profile in the xz plane, for solids that OpenCASCADE sweeps or
+/// revolves.
 namespace spia::shapes {
 
 double heading(const Profile::Piece& piece, double s); ///< radians, of the tangent at arc length s

@@ -16,13 +16,15 @@ namespace {
 
 using std::numbers::pi;
 
-/// Legs of 40 and 25 mm around a bend by 90 degrees, 30 mm wide. @param middle  mm, radius of the middle surface
+/// Legs of 40 and 25 mm around a bend by 90 degrees, 30 mm wide. @param middle mm, radius of the
+/// middle surface
 TriMesh bracket(double middle)
 {
     return shapes::extruded(shapes::Profile({0, 0}, 0).straight(40).bend(middle, pi / 2).straight(25), 30, 600).mesh;
 }
 
-/// Torn along the faces on either side of a plane y = at: those beyond it get vertices of their own there, off by up to the gap.
+/// Torn along the faces on either side of a plane y = at: those beyond it get vertices of their own
+/// there, off by up to the gap.
 TriMesh torn(const TriMesh& mesh, double at, double gap)
 {
     TriMesh result = mesh;

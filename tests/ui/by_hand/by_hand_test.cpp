@@ -1,4 +1,5 @@
-// The window as its users have it: from a start without a file to the files of the export, by mouse and keyboard alone.
+// The window as its users have it: from a start without a file to the files of the export, by mouse
+// and keyboard alone.
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -27,13 +28,15 @@ NurbsSurface moved(NurbsSurface surface, const Vector3d& by)
     return surface;
 }
 
-/// A channel as a CAD system gives it: five faces, a web of 80 x 60 mm (x, z) between two flanges of 25 mm that taper to 20 mm,
-/// radius 6 mm. Its blank has eight corners.
+/// A channel as a CAD system gives it: five faces, a web of 80 x 60 mm (x, z) between two flanges
+/// of 25 mm that taper to 20 mm, radius 6 mm. Its blank has eight corners.
 struct Channel {
     static constexpr double length = 60, web = 80, flange = 25, tip = 20, radius = 6;
     static constexpr double area =
-        web * length + 2 * (pi / 2 * radius * length + flange * (length + tip) / 2); // unrolled, mm2
-    static constexpr double half = web / 2 + pi / 2 * radius; // of the blank, to where the flanges begin, mm
+        // unrolled, mm2
+        web * length + 2 * (pi / 2 * radius * length + flange * (length + tip) / 2);
+    // of the blank, to where the flanges begin, mm
+    static constexpr double half = web / 2 + pi / 2 * radius;
 
     static void write(const fs::path& file)
     {
@@ -81,14 +84,15 @@ glm::dvec2 corner_of(const Json& report, int corner)
     return {at[0].get<double>(), at[1].get<double>()};
 }
 
-/// The corner of the channel's blank on the same flange and the same side as a corner of the grid: where the flange begins for one at
-/// its tip, and the other way round. mm
+/// The corner of the channel's blank on the same flange and the same side as a corner of the grid:
+/// where the flange begins for one at its tip, and the other way round. mm
 glm::dvec2 beside(const Json& report, int corner)
 {
     glm::dvec2 middle(0);
     for (int k = 0; k < 4; ++k)
         middle += corner_of(report, k) / 4.;
-    double xx = 0, xy = 0, yy = 0; // the blank is longer than wide: its axis is that of the greatest moment
+    double xx = 0, xy = 0, yy = 0; // the blank is longer than wide: its axis is that of the
+                                   // greatest moment
     for (int k = 0; k < 4; ++k) {
         const glm::dvec2 r = corner_of(report, k) - middle;
         xx += r.x * r.x;
@@ -298,7 +302,8 @@ TEST_P(KeyboardByHandOnScreens, TheSameWithoutTheMouse)
     hands->see("Open a part");
     for (int rows = 0; rows < 5 && !hands->sees_chosen("channel.step"); ++rows) { // beside folders
         hands->keys("Down");
-        std::this_thread::sleep_for(std::chrono::seconds(1)); // nobody presses keys faster than the list follows
+        // nobody presses keys faster than the list follows
+        std::this_thread::sleep_for(std::chrono::seconds(1));
     }
     hands->keys("Return");
     hands->see("Import a part");
@@ -473,7 +478,8 @@ TEST_F(ByHand, TheDialogOfFilesSaysWhatItLeavesOutAndBeginsAnewEachTime)
         EXPECT_FALSE(hands->sees_now("notes.txt"));
         hands->click("Show all files");
         hands->see("notes.txt");
-        hands->type((folder / "nowhere.stl").string()); // takes the place of the name that stands there
+        hands->type((folder / "nowhere.stl").string()); // takes the place of the name that stands
+                                                        // there
         hands->keys("Return");
         hands->see_part_of_line("There is no file"); // the path may be on lines of its own
         hands->keys("Escape");

@@ -4,7 +4,8 @@
 
 namespace spia::viewer {
 
-/// Lets files fall on a window, as a file manager does: the source's side of the XDND protocol, version 5 [freedesktop.org].
+/// Lets files fall on a window, as a file manager does: the source's side of the XDND protocol,
+/// version 5 [freedesktop.org].
 /// @param window  of X
 /// @param x, y    pixels of the screen
 /// @throws Error if the window does not take them within 10 s

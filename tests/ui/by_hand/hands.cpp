@@ -182,10 +182,12 @@ void Hands::menu(const std::string& title, const std::string& entry, const std::
 
 void Hands::menu_by_keys(const std::string& title, const std::string& entry, const std::string& under)
 {
-    // One step at a time: the mark has moved before the next key; at an end of the row it turns round.
+    // One step at a time: the mark has moved before the next key; at an end of the row it turns
+    // round.
     const auto go_to = [&](const std::string& line, const char* on, const char* back) {
         const auto until = Clock::now() + std::chrono::seconds(60); // pressing keys is no waiting
-        const auto stays_at = [&] {                                 // a key that came late would move it on
+        // a key that came late would move it on
+        const auto stays_at = [&] {
             if (!sees_marked(line))
                 return false;
             viewer_.rest();
@@ -196,14 +198,16 @@ void Hands::menu_by_keys(const std::string& title, const std::string& entry, con
                 throw Error("\"" + line + "\" is not reached by the keys " + on + " and " + back);
             const Json before = viewer_.report()["window"]["marked"];
             keys(key);
-            const auto moved_by = Clock::now() + std::chrono::seconds(3); // 1 s was too short on a loaded machine
+            // 1 s was too short on a loaded machine
+            const auto moved_by = Clock::now() + std::chrono::seconds(3);
             while (viewer_.report()["window"]["marked"] == before && Clock::now() < moved_by)
                 viewer_.rest();
             if (viewer_.report()["window"]["marked"] == before)
                 key = key == on ? back : on;
         }
     };
-    const auto in_bar = [](const Json& now) { // a title of the menu bar, at the upper edge of the window, is marked
+    const auto in_bar = [](const Json& now) { // a title of the menu bar, at the upper edge of the
+                                              // window, is marked
         const Json& marked = now["window"]["marked"];
         return !marked.is_null() && marked["at"][1].get<double>() < 10;
     };

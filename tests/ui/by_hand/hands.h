@@ -7,8 +7,8 @@
 
 namespace spia::viewer {
 
-/// A person at the window: reads what is written on the screen, moves the mouse and presses keys, and loses patience after ten
-/// seconds. Nothing else tells the program what to do.
+/// A person at the window: reads what is written on the screen, moves the mouse and presses keys,
+/// and loses patience after ten seconds. Nothing else tells the program what to do.
 class Hands {
 public:
     static constexpr std::chrono::seconds waiting_limit{10};
@@ -23,7 +23,8 @@ public:
     void see_no(const std::string& part);
     bool sees_now(const std::string& line) const;
     bool sees_chosen(const std::string& line) const; ///< in a list, and again in the field below it
-    bool sees_marked(const std::string& line) const; ///< by the frame around what the keyboard is at
+    bool sees_marked(const std::string& line) const; ///< by the frame around what the keyboard is
+                                                     ///< at
     /// Until what the program says of itself fulfils a condition.
     Json see_that(const std::string& what, const std::function<bool(const Json&)>& fulfilled);
     Json see_ready(); ///< no job, nothing that is still to be drawn
@@ -35,13 +36,16 @@ public:
     void double_click(const std::string& line);
     /// Turns the wheel over a place of the window until the line shows. @returns the report then
     Json scroll_to(const std::string& line, double x, double y);
-    void click_beside(const std::string& line, double dx, double dy); ///< pixels from the middle of a line
+    /// pixels from the middle of a line
+    void click_beside(const std::string& line, double dx, double dy);
     void click_at(double x, double y);
     void tool(const std::string& name); ///< in the bar, whether its name is written there or not
-    void open_menu(const std::string& title, const std::string& entry); ///< where the entry is to be seen
+    /// where the entry is to be seen
+    void open_menu(const std::string& title, const std::string& entry);
     void menu(const std::string& title, const std::string& entry);
     void menu(const std::string& title, const std::string& entry, const std::string& under);
-    /// By Alt and the arrows, Return takes. @param under  an entry of the menu that opens beside; empty: none does
+    /// By Alt and the arrows, Return takes. @param under an entry of the menu that opens beside;
+    /// empty: none does
     void menu_by_keys(const std::string& title, const std::string& entry, const std::string& under = "");
     void keys(const std::string& combination);
     void type(const std::string& text); ///< into what has the keyboard

@@ -10,7 +10,8 @@
 
 namespace spia::viewer {
 
-/// A part that is open in the running program, whose panels and views a test uses by mouse and keyboard.
+/// A part that is open in the running program, whose panels and views a test uses by mouse and
+/// keyboard.
 class OnPart : public testing::Test {
 protected:
     static constexpr double left_x = 150, left_y = 400;    ///< over the panel of the steps

@@ -1,4 +1,5 @@
-// Menus, panels and tools beside the path of by_hand_test.cpp: each does what it says, pressed by mouse and keyboard.
+// Menus, panels and tools beside the path of by_hand_test.cpp: each does what it says, pressed by
+// mouse and keyboard.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,4 +1,5 @@
-// A file that is refused while a part is open: the part stays, the faults are shown on request, and back. By mouse and keyboard.
+// A file that is refused while a part is open: the part stays, the faults are shown on request, and
+// back. By mouse and keyboard.
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>

@@ -82,7 +82,8 @@ TEST_F(RegionsByHand, PickedVerticesAreListedAndBecomePilots)
 {
     start("assets/parts/dome.obj");
     hands->click("Vertex");
-    for (double y = 0.5; y < 0.7 && hands->viewer().report()["vertices"].empty(); y += 0.015) // one is near somewhere
+    // one is near somewhere
+    for (double y = 0.5; y < 0.7 && hands->viewer().report()["vertices"].empty(); y += 0.015)
         click_in("part", 0.5, y);
     Json now = count("/vertices", 1);
     hands->click_beside("x, y, z, mm", 0, 18); // the first row
@@ -93,7 +94,8 @@ TEST_F(RegionsByHand, PickedVerticesAreListedAndBecomePilots)
     EXPECT_EQ(now["lines"][0]["kind"], "pilot");
     hands->scroll_to("x, y, z, mm", right_x, right_y);
     const Json report = hands->viewer().report();
-    for (const Json& text : report["window"]["texts"]) // the button at the end of the row of the vertex
+    for (const Json& text : report["window"]["texts"]) // the button at the end of the row of the
+                                                       // vertex
         if (text["text"] == "x" && text["at"][0].get<double>() > 1300) {
             hands->click_at(text["at"][0].get<double>() + 3, text["at"][1].get<double>() + 6);
             break;

@@ -1,4 +1,5 @@
-// What the program says of its result, in Export and in Inspect: by mouse, with no other eyes than the texts on the screen.
+// What the program says of its result, in Export and in Inspect: by mouse, with no other eyes than
+// the texts on the screen.
 #include <gtest/gtest.h>
 #include <memory>
 
@@ -48,7 +49,8 @@ TEST_F(VerdictByHand, ExportListsWhatTheLightsHoldAndStaysWhileAllIsUpdated)
     start("assets/parts/dome.obj");
     run();
     hands->keys("ctrl+e");
-    hands->see("The surface is out of tolerance; 3 things to look at"); // nobody has given the sheet
+    // nobody has given the sheet
+    hands->see("The surface is out of tolerance; 3 things to look at");
     hands->see_part_of_line("The thickness 1 mm is assumed");
     click_item("Confirm 1 mm of mild_steel");
     hands->see("The surface is out of tolerance; 2 things to look at");
@@ -70,7 +72,8 @@ TEST_F(VerdictByHand, WhetherItCracksIsInSightAndAMiniatureIsDoubted)
     start("assets/parts/dome.obj");
     run();
     hands->see_part_of_line("No cracks expected");
-    hands->scroll_to("Step by step", 150, 400); // far down in the panel of the steps; the next part begins at its top
+    hands->scroll_to("Step by step", 150, 400); // far down in the panel of the steps; the next part
+                                                // begins at its top
     hands->keys("ctrl+o");
     hands->see("Open a part");
     const fs::path miniature = folder / "metres.obj"; // a sheet of 0.6 m, read as 0.6 mm

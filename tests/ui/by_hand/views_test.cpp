@@ -1,4 +1,5 @@
-// Habits of the trade in the views: mice of other programs, the view cube, measuring, clipping. By mouse and keyboard alone.
+// Habits of the trade in the views: mice of other programs, the view cube, measuring, clipping. By
+// mouse and keyboard alone.
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -13,7 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// A web and a flange of 40 x 60 mm with a bend of 90 degrees and 6 mm radius between them, as an OBJ file.
+/// A web and a flange of 40 x 60 mm with a bend of 90 degrees and 6 mm radius between them, as an
+/// OBJ file.
 struct Angle {
     static constexpr double radius = 6, flat = 40, depth = 60, arc = pi / 2 * radius;
     static constexpr int per_flat = 8, per_arc = 6, columns = 2 * per_flat + per_arc, rows = 12;
@@ -190,7 +192,8 @@ TEST_F(ViewsByHand, ARadiusAnAngleAndADistanceAreMeasured)
     EXPECT_EQ(viewer().report()["measurements"].size(), 1u);
 
     const auto choose = [&](const char* now_chosen,
-                            const char* kind) { // above the views; the list of results has the words, too
+                            const char* kind) { // above the views; the list of results has the
+                                                // words, too
         double x = 0, y = 1e9;
         const Json report = viewer().report();
         for (const Json& text : report["window"]["texts"])

@@ -27,8 +27,8 @@ std::vector<bool> inner(const TriMesh& part)
     return result;
 }
 
-/// The constraints as the paper has them, the wheel as a difference of products: triangles, then planarity and wheel of
-/// each inner vertex.
+/// The constraints as the paper has them, the wheel as a difference of products: triangles, then
+/// planarity and wheel of each inner vertex.
 Eigen::VectorXd constraints(const TriMesh& part, const Eigen::Matrix3Xd& angle)
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(part.vertices());
@@ -72,7 +72,8 @@ TEST(Abf, FulfilsItsConstraints)
 
 TEST(Abf, IsNewtonsMethodItself)
 {
-    // Where the multipliers are large, a Hessian without the wheel (or with its wrong sign) needs many more steps.
+    // Where the multipliers are large, a Hessian without the wheel (or with its wrong sign) needs
+    // many more steps.
     const TriMesh part = bumpy(shapes::rectangle(60, 45, 16, 12), 20);
     const AbfAngles found = abf_angles(part);
     EXPECT_TRUE(found.converged);
@@ -95,8 +96,9 @@ TEST(Abf, WantsTheAnglesOfThePartScaledToAFullTurnInside)
 
 TEST(Abf, ItsObjectiveCannotFallAlongTheConstraints)
 {
-    // The gradient of the Lagrangian vanishes: that of the objective is a combination of those of the constraints,
-    // found here by differences and a dense least squares, without the solver's multipliers.
+    // The gradient of the Lagrangian vanishes: that of the objective is a combination of those of
+    // the constraints, found here by differences and a dense least squares, without the solver's
+    // multipliers.
     const TriMesh part = bumpy_disk();
     const AbfAngles found = abf_angles(part);
     const double step = 1e-5;
@@ -164,8 +166,8 @@ TEST(Abf, DistortsAnglesLessThanLscmOnAPanelWithManyHoles)
 
 TEST(Abf, TakesASharpSpike)
 {
-    // Three faces around a spike: the wanted angles are 2 pi / 3 each, far from the part's, and with fewer than four
-    // faces there is no other choice.
+    // Three faces around a spike: the wanted angles are 2 pi / 3 each, far from the part's, and
+    // with fewer than four faces there is no other choice.
     TriMesh spike;
     spike.position.resize(3, 4);
     spike.position << 0, 1, -0.5, -0.5, 0, 0, 0.8660254037844386, -0.8660254037844386, 6, 0, 0, 0;

@@ -27,7 +27,8 @@ double energy(const TriMesh& part, const Eigen::Matrix2Xd& flat, double (*densit
     return sum;
 }
 
-/// The largest slope of the energy over the mean edge, by central differences, as a share of the part's area.
+/// The largest slope of the energy over the mean edge, by central differences, as a share of the
+/// part's area.
 double largest_slope(const TriMesh& part, const Eigen::Matrix2Xd& flat, double (*density)(const Eigen::Matrix2d&))
 {
     const double step = 1e-4;
@@ -57,7 +58,8 @@ Eigen::Matrix2Xd far_start(const TriMesh& part)
     return X;
 }
 
-/// A start without flips whose middle columns are crushed to a hundredth: full steps from it turn triangles over.
+/// A start without flips whose middle columns are crushed to a hundredth: full steps from it turn
+/// triangles over.
 Eigen::Matrix2Xd crushed(const TriMesh& part)
 {
     Eigen::Matrix2Xd X = part.position.topRows<2>();
@@ -160,7 +162,8 @@ TEST(IsometricMaps, OfDevelopablePartsHaveNoDistortion)
             EXPECT_LT(q.area_rms, 1e-6);
             EXPECT_NEAR(q.l2_stretch, 1, 1e-10);
             EXPECT_NEAR(q.symmetric_dirichlet, 4, 1e-10);
-            EXPECT_NEAR(flat_area(part.mesh, map.position), area(part.mesh), 1e-6 * area(part.mesh)); // true to scale
+            // true to scale
+            EXPECT_NEAR(flat_area(part.mesh, map.position), area(part.mesh), 1e-6 * area(part.mesh));
         }
     }
 }

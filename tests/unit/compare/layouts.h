@@ -7,7 +7,8 @@
 
 namespace spia {
 
-/// Largest distance between two layouts after the best similarity (no reflection), as a share of the second's size.
+/// Largest distance between two layouts after the best similarity (no reflection), as a share of
+/// the second's size.
 inline double distance_up_to_similarity(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
 {
     const auto centred = [](const Eigen::Matrix2Xd& x) {

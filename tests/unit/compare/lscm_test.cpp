@@ -40,8 +40,9 @@ TEST(Lscm, HasTheAreaOfThePart)
 
 TEST(Lscm, IsTheLeastDifferenceBetweenStretchAndAreaAmongMapsWithTheSamePins)
 {
-    // Independent route: the conformal energy is half the Dirichlet energy (cotangents of the corners) less the area
-    // of the map [Pinkall and Polthier 1993]. Its derivative must vanish at every vertex but the two that are held.
+    // Independent route: the conformal energy is half the Dirichlet energy (cotangents of the
+    // corners) less the area of the map [Pinkall and Polthier 1993]. Its derivative must vanish at
+    // every vertex but the two that are held.
     const TriMesh part = bumpy_disk();
     const std::array<int, 2> pins = {3, 40};
     const Eigen::Matrix2Xd u = lscm(part, {.pins = pins}).position;
@@ -54,7 +55,8 @@ TEST(Lscm, IsTheLeastDifferenceBetweenStretchAndAreaAmongMapsWithTheSamePins)
             const Eigen::Vector2d pull = 0.5 * p.dot(q) / p.cross(q).norm() * (u.col(a) - u.col(b));
             gradient.col(a) += pull;
             gradient.col(b) -= pull;
-            const Eigen::Vector2d edge = u.col(b) - u.col(a); // the area grows by half of it turned, at corner `at`
+            // the area grows by half of it turned, at corner `at`
+            const Eigen::Vector2d edge = u.col(b) - u.col(a);
             gradient.col(at) -= 0.5 * Eigen::Vector2d(-edge[1], edge[0]);
         }
     EXPECT_GT(gradient.col(pins[0]).norm(), 1e-4); // what the pin holds

@@ -25,8 +25,8 @@ TEST(MapQuality, OfAnIsometryOfAnySizeIsTheBestThereIs)
 
 TEST(MapQuality, OfAnAffineMapIsTheHandComputedOne)
 {
-    // Stretched to 4 by 1 (s1 = 4, s2 = 1; at the part's area 2 and 1/2). Squares cut by a diagonal: their right angles
-    // stay, those of 45 degrees become atan(4) and atan(1/4).
+    // Stretched to 4 by 1 (s1 = 4, s2 = 1; at the part's area 2 and 1/2). Squares cut by a
+    // diagonal: their right angles stay, those of 45 degrees become atan(4) and atan(1/4).
     const TriMesh part = shapes::rectangle(6, 6, 6, 6);
     Eigen::Matrix2Xd flat = part.position.topRows<2>();
     flat.row(0) *= 4;
@@ -40,8 +40,8 @@ TEST(MapQuality, OfAnAffineMapIsTheHandComputedOne)
 
 TEST(MapQuality, OfTwoStretchesInOneSheetIsTheHandComputedOne)
 {
-    // One half keeps its size, the other is stretched twofold one way: sum A s^2 = 2 + 5, sum A / s^2 = 2 + 1.25, flat
-    // area 3 of 2.
+    // One half keeps its size, the other is stretched twofold one way: sum A s^2 = 2 + 5, sum A /
+    // s^2 = 2 + 1.25, flat area 3 of 2.
     const TriMesh strip = shapes::rectangle(2, 1, 2, 1);
     Eigen::Matrix2Xd flat = strip.position.topRows<2>();
     for (int v = 0; v < strip.vertices(); ++v)
@@ -59,7 +59,8 @@ TEST(MapQuality, CountsFlipsAndOverlapsAndCallsTheStretchOfAFlipInfinite)
     Eigen::Matrix2Xd flat = part.position.topRows<2>();
     for (int v = 0; v < part.vertices(); ++v)
         if (flat(0, v) > 2.5)
-            flat(0, v) = 5.75 - flat(0, v) - 0.5; // folded back onto the cells before: x 3, 4 to 2.25, 1.25
+            flat(0, v) = 5.75 - flat(0, v) - 0.5; // folded back onto the cells before: x 3, 4 to
+                                                  // 2.25, 1.25
     const MapQuality q = map_quality(part, flat);
     EXPECT_EQ(q.flips, 2); // the last cell runs backwards, the one before is only short
     EXPECT_GT(q.crossings, 0);

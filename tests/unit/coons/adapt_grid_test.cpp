@@ -141,7 +141,8 @@ TEST(GradeLines, CannotMoveWhereThereAreNone)
     GridOptions options;
     options.columns = options.rows = 1;
     options.line_grading = 0.5;
-    for (int v = 0; v < strip.part.vertices(); ++v) // twisted: the normals of the only cell's corners differ
+    for (int v = 0; v < strip.part.vertices(); ++v) // twisted: the normals of the only cell's
+                                                    // corners differ
         strip.part.position(2, v) += 1e-3 * strip.flat.position(0, v) * strip.flat.position(1, v);
     options.even_cells = true;
     const GridResult one = coons_grid(strip.part, strip.blank, strip.boundary, options);
@@ -153,7 +154,8 @@ TEST(GradeLines, CannotMoveWhereThereAreNone)
 TEST(GradeLines, AreNotDrawnByWhatFillsAHole)
 {
     TriMesh part = shapes::plate();
-    for (int v = 0; v < part.vertices(); ++v) { // rolled up evenly: what fills its holes is flatter than it
+    for (int v = 0; v < part.vertices(); ++v) { // rolled up evenly: what fills its holes is flatter
+                                                // than it
         const double angle = part.position(0, v) / 60;
         part.position(0, v) = 60 * std::sin(angle);
         part.position(2, v) = -60 * std::cos(angle);

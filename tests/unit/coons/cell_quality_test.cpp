@@ -55,8 +55,8 @@ TEST(CellQuality, ANodeThatIsNoNumberFoldsItsCells)
 
 TEST(CellQuality, TheOrientationOfACellIsExact)
 {
-    // A corner one rounding above, on and below the line between its neighbours; far from the origin, where every difference
-    // of products in doubles is off by more than that.
+    // A corner one rounding above, on and below the line between its neighbours; far from the
+    // origin, where every difference of products in doubles is off by more than that.
     const double far = 1 << 20, up = std::nextafter(far + 1.0, 1e300), down = std::nextafter(far + 1.0, 0.0);
     const auto cell = [&](double y) {
         return std::array<Eigen::Vector2d, 4>{Eigen::Vector2d(far, far), Eigen::Vector2d(far + 1, y),

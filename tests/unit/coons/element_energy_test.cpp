@@ -23,7 +23,8 @@ TEST(ElementEnergy, IsLeastForARotationAndInfiniteForAFold)
 
 TEST(ElementEnergy, DerivativesAreThoseOfTheValue)
 {
-    // Where the second derivative has no negative eigenvalue, it must be the difference of the gradients too.
+    // Where the second derivative has no negative eigenvalue, it must be the difference of the
+    // gradients too.
     for (const double eps : {0.0, 0.2})
         for (const Jacobian& J :
              {Jacobian(1.1, 0.2, -0.1, 0.9), Jacobian(0.5, 0.1, 0.3, 0.7), Jacobian(1, 0.1, 0.2, -0.8)}) {

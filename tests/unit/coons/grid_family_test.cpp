@@ -1,4 +1,5 @@
-// Outlines and corners drawn at random: a few of each kind. All of them: spia-robustness --grids 40.
+// Outlines and corners drawn at random: a few of each kind. All of them: spia-robustness --grids
+// 40.
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <vector>

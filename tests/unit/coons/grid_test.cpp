@@ -97,7 +97,8 @@ TEST(CoonsGrid, OfARectangleIsUniformByEveryMethod)
 
 TEST(CoonsGrid, OfAFourSidedPlateIsTheBilinearMap)
 {
-    // Straight sides divided evenly: eq. 25 is then ((1-u)(1-v), u(1-v), uv, (1-u)v) of the corners.
+    // Straight sides divided evenly: eq. 25 is then ((1-u)(1-v), u(1-v), uv, (1-u)v) of the
+    // corners.
     const outlines::Points corner = {{0, 0}, {10, -1}, {12, 9}, {1, 6}};
     const TriMesh part = outlines::part(outlines::divided(corner, 0.7));
     const GridResult grid = grid_of(part, {corner[0], corner[1], corner[2], corner[3]}, {.columns = 8, .rows = 6});
@@ -177,8 +178,8 @@ TEST(CoonsGrid, CellsCoverTheOutlineOnce)
             expected += (corner[k].x() * corner[(k + 1) % 4].y() - corner[k].y() * corner[(k + 1) % 4].x()) / 2;
         EXPECT_NEAR(cell_area(grid_of(flat, {corner[0], corner[1], corner[2], corner[3]}).planar), expected, 1e-9);
     }
-    const TriMesh u =
-        part(u_shape(8, 2, 0.25)); // untangled; 32 divides each of its sides so that the nodes hit the corners
+    const TriMesh u = part(u_shape(8, 2, 0.25)); // untangled; 32 divides each of its sides so that
+                                                 // the nodes hit the corners
     const GridResult grid = grid_of(u, {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {.columns = 40, .rows = 32});
     expect_sound(grid, "U");
     double border = 0; // the polygon of the border nodes by the shoelace formula

@@ -62,7 +62,8 @@ TEST(HarmonicMap, IsOneToOneOnDifficultOutlines)
         EXPECT_GT(smallest_area(map), 0);
         EXPECT_NEAR(total_area(map), 1, 1e-12);
     }
-    // In an arm the area falls by exp(-2 pi length / width): here below the rounding of the positions.
+    // In an arm the area falls by exp(-2 pi length / width): here below the rounding of the
+    // positions.
     for (const Points& outline : {u_shape(10, 2, 0.25), slotted(20, 10, 5, 0.2, 4, 0.2)}) {
         const TriMesh flat = part(outline);
         const HarmonicMap map = map_of(flat, as_blank(flat));

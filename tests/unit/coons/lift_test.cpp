@@ -36,7 +36,8 @@ TEST(Lift, OfAnUnrolledCylinderComesCloserWithSecondOrder)
     const double radius = 10, angle = 2.5, height = 15;
     std::vector<double> error;
     for (const int n : {8, 16, 32}) {
-        TriMesh part = shapes::rectangle(radius * angle, height, n + 1, n - 1); // nothing in common with the grid
+        // nothing in common with the grid
+        TriMesh part = shapes::rectangle(radius * angle, height, n + 1, n - 1);
         const Blank blank = outlines::as_blank(part);
         for (int v = 0; v < part.vertices(); ++v) {
             const double s = part.position(0, v) / radius;
@@ -62,7 +63,8 @@ TEST(Lift, BorderNodesAreOnTheEdgeOfThePart)
     TriMesh part = shapes::rectangle(10, 10, 6, 5);
     const Blank blank = outlines::as_blank(part);
     part.position.row(2) =
-        part.position.row(0).array().square() * 0.1 + part.position.row(1).array() * 0.3; // z = f(x) + 0.3 y
+        // z = f(x) + 0.3 y
+        part.position.row(0).array().square() * 0.1 + part.position.row(1).array() * 0.3;
     const QuadGrid lifted = lift(grid_of(part, blank)).lifted;
     for (int i = 0; i <= lifted.columns; ++i) {
         const Eigen::Vector3d p = lifted.position.col(lifted.node(i, 0));

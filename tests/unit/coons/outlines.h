@@ -37,7 +37,8 @@ inline Points divided(const Points& corners, double spacing)
 
 inline TriMesh part(const Points& outline) { return shapes::meshed_outline(outline); }
 
-/// A band that winds around by 8 radians: its ends lie on top of each other, but belong to different ends of the strip.
+/// A band that winds around by 8 radians: its ends lie on top of each other, but belong to
+/// different ends of the strip.
 struct WoundBand {
     TriMesh strip = shapes::rectangle(0.5, 8, 8, 128);
     Blank blank;

@@ -68,8 +68,8 @@ inline TriMesh read(const std::string& name)
     return mesh;
 }
 
-/// Every vertex in the mean of its neighbours (each hole has one more in its middle), the longest loop on a
-/// circle: no triangle flips [Tutte 1963], but the sizes differ by many powers of ten.
+/// Every vertex in the mean of its neighbours (each hole has one more in its middle), the longest
+/// loop on a circle: no triangle flips [Tutte 1963], but the sizes differ by many powers of ten.
 inline Eigen::Matrix2Xd onto_a_disk(const TriMesh& part, double radius)
 {
     const auto loops = boundary_loops(part);

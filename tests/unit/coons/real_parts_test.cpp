@@ -30,7 +30,8 @@ TEST_P(RealPart, HasNoFoldedCellOnADiskNorOnABlankThatOverlapsItself)
             EXPECT_EQ(grid.nodes_outside, 0);
             const LiftResult lifted = lift(grid);
             EXPECT_TRUE(lifted.lifted.position.allFinite());
-            for (size_t k = 0; k < 4; ++k) // the corners of the grid are the corner vertices of the part
+            for (size_t k = 0; k < 4; ++k) // the corners of the grid are the corner vertices of the
+                                           // part
                 EXPECT_EQ(lifted.lifted.position.col(k == 0   ? lifted.lifted.node(0, 0)
                                                      : k == 1 ? lifted.lifted.node(grid.planar.columns, 0)
                                                      : k == 2

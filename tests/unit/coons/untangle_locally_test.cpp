@@ -10,9 +10,11 @@ namespace spia {
 namespace {
 
 constexpr int columns = 14, rows = 11;
-const Eigen::Vector2d along_row(6, 0.1), along_column(5, 1.2); // far from the rectangles that untangle() wants
+// far from the rectangles that untangle() wants
+const Eigen::Vector2d along_row(6, 0.1), along_column(5, 1.2);
 
-/// Parallelograms of one shape. Their inner nodes are moved at random, across their length by up to a share of their height.
+/// Parallelograms of one shape. Their inner nodes are moved at random, across their length by up to
+/// a share of their height.
 QuadGrid sheared_cells(double share)
 {
     const double height = (along_row.x() * along_column.y() - along_row.y() * along_column.x()) / along_row.norm();

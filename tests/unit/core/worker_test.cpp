@@ -85,7 +85,8 @@ TEST(Worker, EndsAfterWhatItIsMakingAndLeavesOutTheRest)
     const auto busy = worker->later([&] {
         begun.let_pass();
         gate.pass();
-        std::this_thread::sleep_for(std::chrono::milliseconds(50)); // the destructor has to wait meanwhile
+        // the destructor has to wait meanwhile
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
         return made = true;
     });
     const auto left = worker->later([&] { return also = true; });

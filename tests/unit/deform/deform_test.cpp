@@ -81,7 +81,8 @@ TEST(Lattice, OfLowerDegreeMovesOnlyWhatIsNear)
     const auto at = [&](double s, double t, double u) {
         return map.displacement(lattice.origin + lattice.edge * Eigen::Vector3d(s, t, u));
     };
-    EXPECT_NEAR(at(0.5, 0.5, 0.5)[2], std::pow(0.75, 3), 1e-12); // the middle of a quadratic B-spline is 3/4
+    // the middle of a quadratic B-spline is 3/4
+    EXPECT_NEAR(at(0.5, 0.5, 0.5)[2], std::pow(0.75, 3), 1e-12);
     EXPECT_EQ(at(0.2, 0.5, 0.5), Eigen::Vector3d(0, 0, 0));
     EXPECT_EQ(at(0.5, 0.5, 0.9), Eigen::Vector3d(0, 0, 0));
 }
@@ -141,7 +142,8 @@ TEST(Deform, KeepsPatchesJoinedBitForBit)
         for (Eigen::Index p = 0; p < deformation.lattice->move.cols(); ++p)
             deformation.lattice->move.col(p) =
                 2 * Eigen::Vector3d(std::sin(2. * double(p)), std::cos(3. * double(p)), 0.4);
-        for (size_t p = 0; p < sample.patches.patch.size(); ++p) // corners, which several share, by one of them
+        // corners, which several share, by one of them
+        for (size_t p = 0; p < sample.patches.patch.size(); ++p)
             if (p == 0)
                 for (const int j : {0, sample.patches.patch[p].count_v - 1})
                     deformation.moves.push_back({int(p), sample.patches.patch[p].count_u - 1, j, {1, 2, 0.3 + j}});
@@ -154,7 +156,8 @@ TEST(Deform, KeepsPatchesJoinedBitForBit)
 
 TEST(Deform, BendsAPlateToAnArc)
 {
-    // A flat strip 100 long; a lattice whose points are put on the arc moves it near there, the nearer the more points.
+    // A flat strip 100 long; a lattice whose points are put on the arc moves it near there, the
+    // nearer the more points.
     NurbsSurface strip;
     strip.degree_u = 3, strip.degree_v = 1;
     strip.count_u = 23, strip.count_v = 2;
@@ -195,8 +198,8 @@ TEST(Deform, BendsAPlateToAnArc)
             worst = std::max(worst, std::abs(std::hypot(place.x(), place.z() - radius) - radius));
         }
         EXPECT_LT(result.off_lattice, 0.1);
-        if (last > 0 &&
-            points < 33) { // a spline of its control points' places: second order, till the strip's own net limits it
+        if (last > 0 && points < 33) { // a spline of its control points' places: second order, till
+                                       // the strip's own net limits it
             EXPECT_NEAR(last / worst, 4, 1.6);
         }
         last = worst;

@@ -1,4 +1,5 @@
-// STEP files with a fault in an entity: it refuses the file only where a shape or its size needs it.
+// STEP files with a fault in an entity: it refuses the file only where a shape or its size needs
+// it.
 #include <fmt/core.h>
 #include <fstream>
 #include <gmock/gmock.h>

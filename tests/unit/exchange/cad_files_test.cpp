@@ -82,7 +82,8 @@ std::vector<double> numbers_between(const std::string& text, size_t begin, size_
     return numbers;
 }
 
-/// Coordinates as they stand in the file, without any reader: of the CARTESIAN_POINTs, or of the one entity 128.
+/// Coordinates as they stand in the file, without any reader: of the CARTESIAN_POINTs, or of the
+/// one entity 128.
 std::vector<double> raw_coordinates(const std::string& file)
 {
     std::vector<double> result;

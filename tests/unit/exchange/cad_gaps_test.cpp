@@ -43,7 +43,8 @@ TEST(CadGaps, AnEdgeOfMetresAmongTinyOnesTakesNoLonger)
     const OcctSession session;
     std::vector<FreeEdge> edges;
     for (int k = 0; k < 2000; ++k) {
-        const double x = 0.04 * (k % 50), y = 0.04 * (k / 50); // a hundredth beside each other, at their ends
+        // a hundredth beside each other, at their ends
+        const double x = 0.04 * (k % 50), y = 0.04 * (k / 50);
         edges.push_back(line(k, {x, y, 0}, {x + 0.03, y, 0}));
     }
     edges.push_back(line(2000, {10, 10, 10}, {2000, 2000, 2000}));

@@ -36,7 +36,8 @@ TEST(CadNeedles, OnADrawnPartAreRemeshedUnasked)
     EXPECT_LE(part.remeshed->distance, part.remeshed->tolerance);
     EXPECT_TRUE(has_note(part, "--no-remesh"));
     using std::numbers::pi;
-    // Pappus: bottom, round (its line, its centroid 2/pi radii beyond 96) and wall, a quarter of a turn
+    // Pappus: bottom, round (its line, its centroid 2/pi radii beyond 96) and wall, a quarter of a
+    // turn
     const double exact = pi / 2 * ((96. * 96 - 20 * 20) / 2 + pi / 2 * 4 * (96 + 2 / pi * 4) + 60 * 100);
     EXPECT_NEAR(area(part.mesh) / exact, 1, 1e-3);
     const std::vector<int>& cad_face = part.cad->face;

@@ -35,8 +35,8 @@ double area_of(const TriMesh& part, const Blank& blank)
     return std::abs(sum);
 }
 
-/// The distances in the blank between places of the border whose x, y on the panel are given: every two of the corners and of the middles of
-/// the sides.
+/// The distances in the blank between places of the border whose x, y on the panel are given: every
+/// two of the corners and of the middles of the sides.
 std::vector<double> extents(const TriMesh& part, const Blank& blank)
 {
     const std::array<Eigen::Vector2d, 8> places = {

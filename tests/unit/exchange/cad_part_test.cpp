@@ -40,7 +40,8 @@ NurbsSurface cylinder(double from, double to) { return surfaces::cylinder(radius
 /// A quarter cylinder in two faces.
 std::vector<NurbsSurface> quarter_cylinder() { return {cylinder(0, pi / 4), cylinder(pi / 4, pi / 2)}; }
 
-/// 5 x 4 squares of 20 mm, every second row moved by half a square, 0.05 mm apart; one of them 0.08 mm more to the left.
+/// 5 x 4 squares of 20 mm, every second row moved by half a square, 0.05 mm apart; one of them 0.08
+/// mm more to the left.
 std::vector<NurbsSurface> gappy_bricks()
 {
     std::vector<NurbsSurface> bricks;
@@ -192,7 +193,8 @@ TEST(CadSewing, ClosesTheGapsOfABrickWallAndTellsTheWidest)
     ASSERT_FALSE(cad.gaps.empty());
     const CadGap& widest = cad.gaps.front();
     EXPECT_GE(widest.width, 0.08 - 1e-6);
-    EXPECT_LE(widest.width, std::hypot(0.08, 0.05) + 1e-6); // ends of borders are also apart along them
+    EXPECT_LE(widest.width, std::hypot(0.08, 0.05) + 1e-6); // ends of borders are also apart along
+                                                            // them
     EXPECT_NEAR(widest.place.x(), 40, 0.1);
     EXPECT_GT(widest.place.y(), 40 - 0.1);
     EXPECT_LT(widest.place.y(), 60 + 0.1);
@@ -268,7 +270,8 @@ TEST(CadSewing, KeepsAThinFace)
 {
     const ScratchFolder folder;
     std::vector<NurbsSurface> wall = gappy_bricks();
-    wall.push_back(rectangle(200, 240, 0, 0.2)); // its sides are as near as a gap, but they are its own
+    wall.push_back(rectangle(200, 240, 0, 0.2)); // its sides are as near as a gap, but they are its
+                                                 // own
     write_iges(folder / "wall.igs", wall);
     const CadContent cad = read_cad(folder / "wall.igs");
     EXPECT_GT(cad.sewing_tolerance, 0.08);
@@ -370,7 +373,8 @@ TEST(CadSewing, SaysThatEdgesBoundTheToleranceOnlyIfTheyDo)
 
 namespace {
 
-/// As shared/data/README.md states; of files without an area it is that of the same surface in another format.
+/// As shared/data/README.md states; of files without an area it is that of the same surface in
+/// another format.
 struct KnownCad {
     const char* file;
     int faces, loops;
@@ -391,7 +395,8 @@ TEST_P(RealCad, HasTheLoopsAndTheAreaItsOriginStates)
         GTEST_SKIP() << "no " << file;
     ReadOptions options;
     options.seam.mode = SeamOptions::Mode::none;
-    options.cad.deflection = 0.005; // so that the chords of borders and bends take less than 1e-3 of the area
+    options.cad.deflection = 0.005; // so that the chords of borders and bends take less than 1e-3
+                                    // of the area
     options.cad.keep_triangles = true;
     const PartFile part = examine_part(file, options);
     EXPECT_EQ(part.cad->faces, known.faces);

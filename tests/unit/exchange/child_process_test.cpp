@@ -94,7 +94,8 @@ TEST(ChildProcess, IsGivenUpWhenItComputesTooLongOrNotAtAll)
     EXPECT_NE(fault_of(wait, {.busy = 600s, .idle = 1s}).find("stands still"), std::string::npos);
     EXPECT_NE(fault_of(compute, {.busy = 1s, .idle = 60s}).find("1 seconds of computing"), std::string::npos);
     EXPECT_LT(Clock::now() - start, 60s);
-    const auto pauses = [](const Progress&, const ChildLog&) { // each shorter than the limit, together longer
+    // each shorter than the limit, together longer
+    const auto pauses = [](const Progress&, const ChildLog&) {
         for (int k = 0; k < 4; ++k) {
             ::usleep(700'000);
             for (const auto from = Clock::now(); Clock::now() - from < 50ms;) {

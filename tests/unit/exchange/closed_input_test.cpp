@@ -32,7 +32,8 @@ struct KnownSheet {
     TriMesh mesh;
     double thickness;
     double middle;      ///< mm2, volume / thickness
-    double exact;       ///< what the thickness may be off, of it: chords of curved skins without flats
+    double exact;       ///< what the thickness may be off, of it: chords of curved skins without
+                        ///< flats
     bool plain = false; ///< a plate without holes: the same surface as a closed box
 };
 
@@ -169,7 +170,8 @@ TEST(ClosedInput, SheetIsTakenHoweverThickForItsSize)
                 doubted += doubt;
                 EXPECT_FALSE(share <= 0.1 && doubt) << texts_of(part);
                 EXPECT_TRUE(share < 0.29 || !known.plain || doubt) << "a closed box, too";
-                // Chords of the middle lie nearer to each other than those of the skins, by 1 - cos of half their angle.
+                // Chords of the middle lie nearer to each other than those of the skins, by 1 - cos
+                // of half their angle.
                 EXPECT_NEAR((part.solid->outer_area + part.solid->inner_area) / 2, known.middle, 0.04 * known.middle);
             }
     RecordProperty("sheets", count);
@@ -214,7 +216,8 @@ TEST(ClosedInput, SaysWhatItIsNotSureOf)
 
 TEST(ClosedInput, PlatesWhoseHolesTouchAreSheet)
 {
-    // Both holes have the edge across the thickness: it belongs to four faces. A plate of squares, two of them left out.
+    // Both holes have the edge across the thickness: it belongs to four faces. A plate of squares,
+    // two of them left out.
     for (const double t : {1., 4.})
         for (const std::uint64_t seed : {0, 1, 2}) {
             constexpr int columns = 6, rows = 4;
@@ -255,8 +258,8 @@ TEST(ClosedInput, CountersinksAreEdgesOfHolesAndNoSkin)
     const double z = 3;
     for (const double angle : {60., 82., 90., 100., 120., 126.}) // degrees between its sides
         for (const double depth : {1., 2., 2.7}) {
-            const double wide =
-                3 + depth * std::tan(angle / 2 * pi / 180); // mm, its radius above; that of the hole is 3
+            // mm, its radius above; that of the hole is 3
+            const double wide = 3 + depth * std::tan(angle / 2 * pi / 180);
             SCOPED_TRACE(fmt::format("{} degrees, {} mm deep", angle, depth));
             const auto ring = [&](double radius, double height) {
                 shapes::Loop loop;

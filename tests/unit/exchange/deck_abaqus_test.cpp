@@ -254,7 +254,8 @@ TEST(AbaqusDeck, NodesStandInTheSystemBeforeThem)
     expect(third(""), {2, 30, 5});
     expect(third("*SYSTEM\n10,20,30\n"), {12, 50, 35});
     expect(third("*SYSTEM\n10,20,30,\n"), {12, 50, 35});
-    expect(third("*SYSTEM\n10,20,30,10,21,39\n"), {10 - 30, 20 + 2, 30 + 5}); // the first axis seen from above is y
+    // the first axis seen from above is y
+    expect(third("*SYSTEM\n10,20,30,10,21,39\n"), {10 - 30, 20 + 2, 30 + 5});
     expect(third("*SYSTEM\n10,20,30,10,20,31\n10,21,30\n"), {10 - 5, 20 + 30, 30 + 2});
     expect(third("", "*NODE, SYSTEM=C\n"), {std::sqrt(3), 1, 5});
     expect(third("*SYSTEM\n0,0,0,0,1,0\n", "*NODE, SYSTEM=C\n"), {-1, std::sqrt(3), 5});

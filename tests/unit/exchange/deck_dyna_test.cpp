@@ -45,7 +45,8 @@ TEST(DynaDeck, EveryOptionOfShellsHasItsCards)
         else
             EXPECT_FALSE(deck.parts[0].thickness);
     }
-    // The mean over the corners of each: 3 for the quad, 1 for the triangle; the part has their mean, whatever its section says.
+    // The mean over the corners of each: 3 for the quad, 1 for the triangle; the part has their
+    // mean, whatever its section says.
     const Deck deck = read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n" + quad + two + triangle + two);
     EXPECT_TRUE(has_note(deck, "from 1 to 3; their mean, 2, is used"));
     EXPECT_EQ(read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n" + quad + two + triangle + two +

@@ -81,14 +81,16 @@ TEST(RealDecks, TheSamePartInTwoFormatsIsTheSameMesh)
     const Deck a = read_deck(keyword, content_of(keyword)), b = read_deck(radioss, content_of(radioss));
     EXPECT_EQ(a.node, b.node);
     const auto by_id = [](const Deck& deck) {
-        std::map<std::int64_t, std::array<int, 4>> corners; // the one has its triangles first, the other last
+        std::map<std::int64_t, std::array<int, 4>> corners; // the one has its triangles first, the
+                                                            // other last
         for (int e = 0; e < deck.elements(); ++e)
             corners[deck.element[size_t(e)]] = deck.corner[size_t(e)];
         return corners;
     };
     EXPECT_EQ(by_id(a), by_id(b));
     for (int v = 0; v < a.nodes(); ++v)
-        EXPECT_LT((a.position[size_t(v)] - b.position[size_t(v)]).norm(), 1e-5); // nine digits against fifteen
+        // nine digits against fifteen
+        EXPECT_LT((a.position[size_t(v)] - b.position[size_t(v)]).norm(), 1e-5);
 }
 
 TEST(RealDecks, OnePartOfACarAndOnePropertyOfAWing)

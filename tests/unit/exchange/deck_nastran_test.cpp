@@ -26,7 +26,8 @@ TEST(NastranDeck, WhatAddsToAMaterialIsNotTheMaterial)
 
 TEST(NastranDeck, FieldsAreCutAsTheirLineSays)
 {
-    const Deck deck = read("GRID           1       0-1072.75-1226.601.5+3\n" // small, no blanks between
+    // small, no blanks between
+    const Deck deck = read("GRID           1       0-1072.75-1226.601.5+3\n"
                            "GRID*                  2               0            1.25           -2.5\n"
                            "*                    7.5\n" // large
                            "GRID*                  3               0            1.25            -2.5+LONG\n"
@@ -84,7 +85,8 @@ TEST(NastranDeck, PropertiesGiveThicknessMaterialAndName)
     EXPECT_EQ(part("$HMNAME PROP            7\"Hood\" 4\n").name, "Hood");
     EXPECT_FALSE(part("PSHELL,8,3,.9\n").thickness);
     const Deck deck =
-        read(square + "CQUAD4,12,,1,2,3,4,,,+\n+,,1,.5,.5,.5,.5\n"); // relative thickness, property as its id
+        // relative thickness, property as its id
+        read(square + "CQUAD4,12,,1,2,3,4,,,+\n+,,1,.5,.5,.5,.5\n");
     EXPECT_EQ(deck.parts.at(1).id, 12);
     EXPECT_FALSE(deck.parts.at(1).thickness);
     const Deck own = read(square.substr(0, square.find("CQUAD4")) +
@@ -138,7 +140,8 @@ TEST(NastranDeck, NodesInOtherSystemsArePlaced)
         EXPECT_LT((place(deck, v) - x).norm(), 1e-12) << place(deck, v);
     };
     expect(0, {10 - 2, 20 + 1, 30 + 3});
-    // In system 1: third axis y, first axis x, second z cross x ... = y cross x = -z; so (0, 5, -2), then as above.
+    // In system 1: third axis y, first axis x, second z cross x ... = y cross x = -z; so (0, 5,
+    // -2), then as above.
     expect(1, {10 - 5, 20 + 0, 30 - 2});
     const double across = 2 * std::sin(std::numbers::pi / 3);
     expect(2, {across * std::cos(std::numbers::pi / 6), across * 0.5, 2 * 0.5});
@@ -170,7 +173,8 @@ TEST(NastranDeck, FilesAreIncludedWithAndWithoutQuotesOverLines)
         "CEND\nBEGIN BULK\nINCLUDE 'a folder/\n         nodes.bdf'\ninclude shell.bdf\nPSHELL,7,1,2.\nENDDATA\n");
     const Deck deck = read_deck(scratch / "main.bdf", content_of(scratch / "main.bdf"));
     EXPECT_EQ(deck.elements(), 1);
-    EXPECT_EQ(deck.parts[0].thickness, 0.875); // 2 from the property at the first corner, .5 at the others
+    EXPECT_EQ(deck.parts[0].thickness, 0.875); // 2 from the property at the first corner, .5 at the
+                                               // others
     EXPECT_TRUE(has_note(read("INCLUDE \"none.bdf\"\n" + square), "none.bdf is not there"));
     EXPECT_NE(refusal("a.bdf", "INCLUDE 'none\n").find("does not end"), std::string::npos);
 }
@@ -182,7 +186,8 @@ TEST(NastranDeck, IsRefusedWithItsLineWhereItIsWrong)
     };
     expect("GRID,1,,0.,x,0.\n", "line 1: 'x' is not a number");
     expect("GRID,1\nGRID,a\n", "line 2: 'a' is not a whole number");
-    expect("GRID,1,,0.,x,0.\n$ a comment\nGRID,2\n", "line 1: 'x' is not a number"); // though line 3 is known by then
+    // though line 3 is known by then
+    expect("GRID,1,,0.,x,0.\n$ a comment\nGRID,2\n", "line 1: 'x' is not a number");
     expect("GRID,1\nGRID,2,,,,,,,+\n+,y\nCQUAD4,1,7,1,,3,4\nGRID,3\n", "line 4: a number is missing");
     const ScratchFolder scratch;
     put(scratch / "inc.bdf", "GRID,1,,x\n");

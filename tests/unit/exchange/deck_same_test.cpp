@@ -72,7 +72,8 @@ TEST(SameDeck, IsTheSameMeshInALocaleWithDecimalCommas)
     const auto decks = sample::decks();
     const std::string before = std::setlocale(LC_ALL, nullptr);
     const std::locale streams = std::locale::global(std::locale(std::locale(), new DecimalComma));
-    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) // where they are installed; strtod() obeys these
+    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) // where they are installed; strtod()
+                                                            // obeys these
         std::setlocale(LC_NUMERIC, name);
     for (const auto& [name, text] : decks)
         expect_strip(sample::read(name, text), name);

@@ -188,7 +188,8 @@ TEST_P(Gltf, LinesAndTrianglesJoinTheRightNeighbours)
     ASSERT_EQ(ends.size(), 2 * (8 * 7 + 9 * 6));
     for (int l = 0; l < ends.size() / 2; ++l) {
         const int a = int(ends.data()[2 * l]), b = int(ends.data()[2 * l + 1]);
-        EXPECT_EQ(std::abs(a % 9 - b % 9) + std::abs(a / 9 - b / 9), 1); // neighbours in a net of 9 x 7
+        // neighbours in a net of 9 x 7
+        EXPECT_EQ(std::abs(a % 9 - b % 9) + std::abs(a / 9 - b / 9), 1);
     }
     EXPECT_EQ(mesh(model, "control_net").primitives.size(), 1u);
     EXPECT_EQ(mesh(model, "control_net").extras.Get("count_u").GetNumberAsInt(), 9);
@@ -214,10 +215,12 @@ TEST_P(Gltf, HasTheNetOfEveryPatch)
         EXPECT_EQ(nets[p].extras.Get("degree_v").GetNumberAsInt(), patches[p].degree_v);
         EXPECT_EQ(model.accessors[size_t(nets[p].attributes.at("POSITION"))].count, size_t(patches[p].control.cols()));
     }
-    EXPECT_EQ(values<unsigned>(model, nets[1].indices).size(), 2 * 4); // the sides of the second one
+    // the sides of the second one
+    EXPECT_EQ(values<unsigned>(model, nets[1].indices).size(), 2 * 4);
     const auto place = values<float>(model, nets[1].attributes.at("POSITION"));
     const Eigen::Vector3d last = in_metres(model, node(model, "control_net"), Eigen::Vector3f(place.data() + 9));
-    EXPECT_LT((last - Eigen::Vector3d(9e-3, 2e-3, -5e-3)).norm(), 5e-7); // float32, 2 m from the centre
+    // float32, 2 m from the centre
+    EXPECT_LT((last - Eigen::Vector3d(9e-3, 2e-3, -5e-3)).norm(), 5e-7);
     patches[1].control(0, 0) = std::nan("");
     EXPECT_THROW(write_gltf(folder / GetParam(), scene), InputError);
 }
@@ -297,7 +300,8 @@ TEST_P(Gltf, WhatIsMissingIsLeftOutAndWhatIsWrongIsRefused)
 
 TEST(ColourMap, LightnessRisesEvenlyFromEndToEnd)
 {
-    // CIE lightness of the relative luminance, so that equal steps of the value look like equal steps
+    // CIE lightness of the relative luminance, so that equal steps of the value look like equal
+    // steps
     const auto lightness = [](double t) {
         const double y = Eigen::Vector3d(0.2126, 0.7152, 0.0722).dot(linear_rgb(viridis(t)));
         return y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;

@@ -53,7 +53,8 @@ void expect_same_patches(const iga::Content& read, const MultiPatch& written)
 PatchField thickness_of(const MultiPatch& patches)
 {
     PatchField field{"thickness", "mm", {}};
-    for (const NurbsSurface& patch : patches.patch) // a function of the place, so that neighbours agree
+    for (const NurbsSurface& patch : patches.patch) // a function of the place, so that neighbours
+                                                    // agree
         field.value.push_back(0.8 + 0.1 * (patch.control.colwise().sum().transpose().array() / 77).sin());
     return field;
 }
@@ -88,7 +89,8 @@ TEST_P(Iga, MfemComesBackBitForBit)
     const MultiPatch& patches = GetParam().patches;
     const ScratchFolder folder;
     write_mfem(folder / "a.mesh", patches);
-    const iga::Content read = iga::read_mfem(folder / "a.mesh"); // asks what MFEM asks of edges and knot vectors
+    // asks what MFEM asks of edges and knot vectors
+    const iga::Content read = iga::read_mfem(folder / "a.mesh");
     expect_same_patches(read, patches);
     expect_same_joints(read, patches);
     const PatchField field = thickness_of(patches);
@@ -278,7 +280,8 @@ TEST(IgaFiles, RefuseWhatIsNoSurfaceAndLeaveNothing)
     EXPECT_THROW(write_gismo(folder / "no" / "a", good), ExchangeError);
 }
 
-/// A ring of patches between two circles, nearly; with an odd number of twists a strip that is its own back.
+/// A ring of patches between two circles, nearly; with an odd number of twists a strip that is its
+/// own back.
 MultiPatch ring(int patches, int twists)
 {
     std::vector<NurbsSurface> all;

@@ -166,7 +166,8 @@ TEST(LineFiles, EllipsesAreReadWithTheirEnds)
 TEST(LineFiles, SplinesAreReadByTheirPoles)
 {
     const ScratchFolder folder;
-    // A quarter circle as a rational spline, a cubic that is x^3 over [0, 2], a closed quadratic with knots that are not clamped.
+    // A quarter circle as a rational spline, a cubic that is x^3 over [0, 2], a closed quadratic
+    // with knots that are not clamped.
     const std::string
         quarter = "0 SPLINE 8 q 70 4 71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0.7071067811865476 41 1 "
                   "10 5 20 0 30 2 10 5 20 5 30 2 10 0 20 5 30 2 ",

@@ -1,4 +1,5 @@
-// Abaqus decks whose nodes and elements are made by keywords, against the same parts written plainly.
+// Abaqus decks whose nodes and elements are made by keywords, against the same parts written
+// plainly.
 #include <algorithm>
 #include <fmt/core.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Variants of mesh files and decks that other programs read: strips, sparse and compressed arrays, plane elements.
+// Variants of mesh files and decks that other programs read: strips, sparse and compressed arrays,
+// plane elements.
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
@@ -33,7 +34,8 @@ struct MeshVariants : testing::Test {
         }
         return "";
     }
-    static Eigen::Vector3d moment(const TriMesh& mesh) // of the area: tells a sheet and its sides from another
+    static Eigen::Vector3d moment(const TriMesh& mesh) // of the area: tells a sheet and its sides
+                                                       // from another
     {
         const Eigen::Matrix3Xd vectors = area_vectors(mesh);
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -109,7 +111,8 @@ TEST_F(MeshVariants, StripsOfPlyAreTheirTriangles)
 
 TEST_F(MeshVariants, SparseArraysOfGltfReplaceWhatTheyName)
 {
-    // Two triangles whose vertex 2 is replaced; in the second file all but two vertices are zeros that no view holds.
+    // Two triangles whose vertex 2 is replaced; in the second file all but two vertices are zeros
+    // that no view holds.
     const auto file = [&](bool base, const std::vector<std::uint16_t>& places,
                           const std::vector<Eigen::Vector3f>& values) {
         std::string binary;
@@ -170,7 +173,8 @@ TEST_F(MeshVariants, DamagedCompressedMeshesAreRefused)
         for (size_t at = binary; at < whole.size(); at += 5) {
             std::string damaged = whole;
             damaged[at] = char(damaged[at] ^ 0x55);
-            refused += !refusal("a.glb", damaged).empty(); // others are another mesh, or none that is seen
+            refused += !refusal("a.glb", damaged).empty(); // others are another mesh, or none that
+                                                           // is seen
         }
         EXPECT_GT(refused, 0);
     }

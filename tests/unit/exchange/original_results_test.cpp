@@ -45,7 +45,8 @@ std::string deck(int columns, int rows, const std::function<Vector3d(double, dou
     return text;
 }
 
-/// Fields that are linear in the place, and one state of strain all over it: 0.2 along a direction, -0.05 across.
+/// Fields that are linear in the place, and one state of strain all over it: 0.2 along a direction,
+/// -0.05 across.
 SheetFields fields_on(const TriMesh& mesh, const Vector3d& direction)
 {
     SheetFields fields;
@@ -97,7 +98,8 @@ TEST_F(OriginalResultsTest, OfAPlaneAreThoseOfThePlane)
         ASSERT_EQ(mesh.triangles(), 2 * 14 * 9);
         EXPECT_FALSE(found.part.remeshed);
         const Eigen::Matrix2Xd truth = (stretch * mesh.position.topRows(2)).colwise() + Vector2d(5, -7);
-        EXPECT_LT((found.blank.position - truth).cwiseAbs().maxCoeff(), 1e-9) << size; // boundary vertices, too
+        // boundary vertices, too
+        EXPECT_LT((found.blank.position - truth).cwiseAbs().maxCoeff(), 1e-9) << size;
         const SheetFields expected = fields_on(mesh, direction);
         EXPECT_LT((found.face.strain_major - expected.strain_major).cwiseAbs().maxCoeff(), 1e-12);
         EXPECT_LT((found.face.strain_minor - expected.strain_minor).cwiseAbs().maxCoeff(), 1e-12);
@@ -131,7 +133,8 @@ TEST_F(OriginalResultsTest, BothBanksOfASeamLieOnTheirOwnSide)
     };
     const PartFile part = read(deck(40, 12, tube, true), 5);
     ASSERT_FALSE(part.seam.empty());
-    // Where the seam is, and how far round from it each new vertex lies; on a bank as far as the faces beside it say.
+    // Where the seam is, and how far round from it each new vertex lies; on a bank as far as the
+    // faces beside it say.
     const Vector3d start = part.remeshed->original->position.col(
         std::lower_bound(part.remeshed->original_vertex.begin(), part.remeshed->original_vertex.end(),
                          part.seam[0].front()) -
@@ -156,7 +159,8 @@ TEST_F(OriginalResultsTest, BothBanksOfASeamLieOnTheirOwnSide)
     const OriginalResults found = on_original(part, {unrolled(part.mesh)}, fields_on(part.mesh, Vector3d::UnitZ()));
     const Eigen::Matrix2Xd truth = unrolled(found.part.mesh);
     EXPECT_GT(truth.row(0).maxCoeff() - truth.row(0).minCoeff(), 2 * pi * radius - 1e-6);
-    EXPECT_LT((found.blank.position - truth).cwiseAbs().maxCoeff(), 0.3); // chords of 5 mm; a wrong side is 188 mm off
+    // chords of 5 mm; a wrong side is 188 mm off
+    EXPECT_LT((found.blank.position - truth).cwiseAbs().maxCoeff(), 0.3);
     // and what is written has every element of the deck once
     const PartShells shells = part_shells(found.part);
     EXPECT_EQ(shells.mesh.elements(), 40 * 12);
@@ -180,7 +184,8 @@ TEST_F(OriginalResultsTest, AreTheSameOnOneThreadAndTwoAndRefusedWithoutADeck)
     EXPECT_EQ(one.face.thickness, two.face.thickness);
     EXPECT_EQ(one.face.direction_major, two.face.direction_major);
     EXPECT_THROW(on_original(one.part, one.blank, one.face), InputError); // as it was read
-    EXPECT_THROW(on_original(part, one.blank, fields), InputError);       // the blank of other vertices
+    // the blank of other vertices
+    EXPECT_THROW(on_original(part, one.blank, fields), InputError);
     ReadOptions options;
     options.remesh.emplace();
     const PartFile other = read_part(fs::path(SPIA_SOURCE_DIR) / "assets/parts/dome.obj", options);

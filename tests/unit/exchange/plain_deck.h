@@ -14,7 +14,8 @@
 
 namespace spia::sample {
 
-/// Nodes and shells by their ids, as a deck without any keyword that makes or moves them would list them.
+/// Nodes and shells by their ids, as a deck without any keyword that makes or moves them would list
+/// them.
 struct PlainDeck {
     std::map<std::int64_t, Eigen::Vector3d> node;
     std::map<std::int64_t, std::vector<std::int64_t>> shell;
@@ -48,7 +49,8 @@ struct PlainDeck {
     }
 };
 
-/// The same ids, the same corners in the same order, and the same places within a part of 1e9 of the largest coordinate.
+/// The same ids, the same corners in the same order, and the same places within a part of 1e9 of
+/// the largest coordinate.
 inline void expect_same(const PlainDeck& made, const PlainDeck& plain)
 {
     EXPECT_EQ(made.shell, plain.shell);
@@ -78,7 +80,8 @@ inline Eigen::Vector3d turned(const Eigen::Vector3d& x, const Eigen::Vector3d& f
     return from + v * std::cos(angle) + k.cross(v) * std::sin(angle) + k * k.dot(v) * (1 - std::cos(angle));
 }
 
-/// A grid of columns x rows quads whose nodes and elements are numbered on from these, row after row.
+/// A grid of columns x rows quads whose nodes and elements are numbered on from these, row after
+/// row.
 inline PlainDeck grid(int columns, int rows, std::int64_t first_node, std::int64_t row_step, std::int64_t first_shell,
                       const std::function<Eigen::Vector3d(int, int)>& place)
 {

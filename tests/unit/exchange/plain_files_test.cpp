@@ -348,7 +348,8 @@ TEST(Dxf, LoopsAreClosedOnTheirLayersAndEncloseTheBlanksArea)
             enclosed += (lines[l].x[i] * lines[l].y[next] - lines[l].x[next] * lines[l].y[i]) / 2;
         }
     }
-    // 400 x 300 mm less a hole of a third of each side, stretched by 1.07 and 1.04; holes run clockwise
+    // 400 x 300 mm less a hole of a third of each side, stretched by 1.07 and 1.04; holes run
+    // clockwise
     EXPECT_NEAR(enclosed, 1.07 * 1.04 * 400 * 300 * (1 - 1.0 / 9), 1e-6);
     EXPECT_GT(signed_area(loops[0]), 0);
     EXPECT_LT(signed_area(loops[1]), 0);
@@ -484,7 +485,8 @@ TEST(BlankOutline, TheLoopAroundTheLargestAreaComesFirst)
     for (int v = 0; v < chain.part.vertices(); ++v)
         for (Eigen::Index i = 0; i < before[1].cols(); i += 2)
             if (chain.blank.position.col(v) == before[1].col(i))
-                chain.part.position(2, v) += 5000; // the hole's border zigzags on the part, not in the blank
+                chain.part.position(2, v) += 5000; // the hole's border zigzags on the part, not in
+                                                   // the blank
     const auto loops = blank_outline(chain.part, chain.blank);
     EXPECT_EQ(loops[0], before[0]);
     EXPECT_EQ(loops[1], before[1]);

@@ -81,9 +81,11 @@ TEST_F(ReadPart, BothKindsOfStlAreWeldedInTheOrderOfTheirCorners)
                 EXPECT_LT(
                     (part.mesh.position.col(part.mesh.triangle(k, f)) - mesh.position.col(mesh.triangle(k, f))).norm(),
                     3e-6)
-                    << name; // half a unit in the last place of 33 in single precision, per coordinate
+                    << name; // half a unit in the last place of 33 in single precision, per
+                             // coordinate
         int seen = 0;
-        for (int i = 0; i < part.mesh.triangle.size(); ++i) { // a vertex is numbered when a corner first comes to it
+        // a vertex is numbered when a corner first comes to it
+        for (int i = 0; i < part.mesh.triangle.size(); ++i) {
             EXPECT_LE(part.mesh.triangle(i % 3, i / 3), seen) << name;
             seen = std::max(seen, part.mesh.triangle(i % 3, i / 3) + 1);
         }
@@ -142,9 +144,11 @@ TEST_F(ReadPart, GltfNodesStripsAndMirrorsMakeOneSheetInMillimetres)
                                         {"part.gltf", GltfStrip(data).json},
                                         {"other.gltf", GltfStrip("strip.bin").json}}) {
         const PartFile part = read(name, content);
-        EXPECT_EQ(part.mesh.vertices(), 6) << name; // 8 in the file, two of them shared along the joint
+        EXPECT_EQ(part.mesh.vertices(), 6) << name; // 8 in the file, two of them shared along the
+                                                    // joint
         EXPECT_EQ(part.mesh.triangles(), 4) << name;
-        EXPECT_NEAR(area_vectors(part.mesh).row(2).sum(), 2e6, 1) << name; // 2 m x 1 m, all faces up
+        // 2 m x 1 m, all faces up
+        EXPECT_NEAR(area_vectors(part.mesh).row(2).sum(), 2e6, 1) << name;
         EXPECT_NEAR(bounding_diagonal(part.mesh), std::sqrt(5) * 1000, 1e-9) << name;
         EXPECT_EQ(part.doctor.find(Fault::flipped_face), nullptr) << name;
         EXPECT_EQ(part.doctor.boundary_loops, 1) << name;

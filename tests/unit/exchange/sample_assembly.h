@@ -12,7 +12,8 @@ namespace spia {
 ///     Roof, a solid of 50 x 50 x 2 at x = -100    body:3, faces 14-19
 void write_sample_assembly(const std::filesystem::path& step);
 
-/// Writes solids of 10 x 10 x 1, 20 x 20 x 1 and 30 x 30 x 1, with their names, as IGES: bodies of their own or loose faces.
+/// Writes solids of 10 x 10 x 1, 20 x 20 x 1 and 30 x 30 x 1, with their names, as IGES: bodies of
+/// their own or loose faces.
 void write_sample_bodies(const std::filesystem::path& iges, bool solids);
 
 } // namespace spia

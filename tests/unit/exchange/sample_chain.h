@@ -6,7 +6,8 @@
 
 namespace spia::samples {
 
-/// A curved sheet with a square hole, its blank and smooth fields: what the chain hands to the writers.
+/// A curved sheet with a square hole, its blank and smooth fields: what the chain hands to the
+/// writers.
 struct Chain {
     TriMesh part;
     Blank blank;
@@ -35,7 +36,8 @@ inline SheetFields smooth_fields(int count)
     return f;
 }
 
-/// @param cells along x; a multiple of 4. The hole leaves vertices without faces, as real meshes may have them.
+/// @param cells along x; a multiple of 4. The hole leaves vertices without faces, as real meshes
+/// may have them.
 inline Chain chain(int cells = 12, double size = 400)
 {
     Chain c;

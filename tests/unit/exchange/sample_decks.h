@@ -10,8 +10,9 @@
 
 namespace spia::sample {
 
-/// A bent strip of two parts, 7 "Hood" (four quads, 1.25 thick) and 9 "Rail" (a quad and two triangles, 0.75 thick); ids of
-/// nodes 101, 111, ..., of elements 501, 502, ... Its coordinates fit into eight characters.
+/// A bent strip of two parts, 7 "Hood" (four quads, 1.25 thick) and 9 "Rail" (a quad and two
+/// triangles, 0.75 thick); ids of nodes 101, 111, ..., of elements 501, 502, ... Its coordinates
+/// fit into eight characters.
 struct Strip {
     struct Shell {
         int id, part;

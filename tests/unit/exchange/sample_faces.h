@@ -14,7 +14,8 @@ constexpr double sliver_width = 1e-9; // mm
 /// Writes them as BREP.
 void write_two_squares(const std::filesystem::path& brep, ThirdFace third);
 
-/// mm2, as OpenCASCADE makes the faces of an IGES file when it is told to use curves of one kind only.
+/// mm2, as OpenCASCADE makes the faces of an IGES file when it is told to use curves of one kind
+/// only.
 /// @param mode  -2: those in the parameters of surfaces, -3: those in space
 double area_by_curves(const std::filesystem::path& iges, int mode);
 
@@ -24,7 +25,8 @@ enum class Between {
     slit ///< from the middle, y = 50, to the rim: one edge is common
 };
 
-/// Writes two faces with that many holes each, 30 at most, as BREP; the gap or slit is `width` mm wide.
+/// Writes two faces with that many holes each, 30 at most, as BREP; the gap or slit is `width` mm
+/// wide.
 void write_perforated_halves(const std::filesystem::path& brep, int holes, Between between, double width);
 
 /// How a face of a cylinder about z, radius 10, comes to be.
@@ -38,10 +40,12 @@ void write_swept_cylinder(const std::filesystem::path& brep, Swept swept);
 /// @param triangles  written, too
 void write_tube(const std::filesystem::path& brep, int version, bool triangles);
 
-/// Writes a square of 20 mm with an edge in it that bounds nothing (its orientation is INTERNAL) as BREP.
+/// Writes a square of 20 mm with an edge in it that bounds nothing (its orientation is INTERNAL) as
+/// BREP.
 void write_square_with_inner_edge(const std::filesystem::path& brep);
 
-/// Writes a quarter of a cup as BREP: its flat bottom from radius 20 to 96, a round of radius 4 and a wall of 60 mm, revolved about z.
+/// Writes a quarter of a cup as BREP: its flat bottom from radius 20 to 96, a round of radius 4 and
+/// a wall of 60 mm, revolved about z.
 void write_cup_quarter(const std::filesystem::path& brep);
 
 } // namespace spia

@@ -46,8 +46,8 @@ inline std::string off_text(const TriMesh& mesh)
     return text;
 }
 
-/// With normals, a quality, colours and texture lists around what is needed, as scanners and modellers write
-/// them.
+/// With normals, a quality, colours and texture lists around what is needed, as scanners and
+/// modellers write them.
 inline std::string ply_text(const TriMesh& mesh)
 {
     std::string text =
@@ -148,14 +148,16 @@ inline std::string glb(std::string json, std::string binary)
     return bytes + std::string("BIN\0", 4) + binary;
 }
 
-/// A 2 x 1 strip in metres: a triangle list on the left (vertices 0 to 3), and a strip with vertices of its own (4 to
+/// A 2 x 1 strip in metres: a triangle list on the left (vertices 0 to 3), and a strip with
+/// vertices of its own (4 to
 /// 7) on the right, moved there by a node and mirrored in it.
 struct GltfStrip {
     std::string binary, json;
 
     explicit GltfStrip(const std::string& buffer_uri = "", const std::string& extra = "")
     {
-        for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) // counter-clockwise
+        // counter-clockwise
+        for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
             append(binary, value);
         for (const uint16_t i : {0, 1, 2, 0, 2, 3})
             append(binary, i);

@@ -32,7 +32,8 @@ double bernstein(int i, double t)
 /// Of a cubic through the polynomial's values at four places: its Bezier values from t0 to t1.
 template <class Value> std::array<double, 4> bezier(double t0, double t1, const Value& value)
 {
-    // Blossoms: b(t0, t0, t0), b(t0, t0, t1), ... from values and the polar form of a cubic by its interpolation.
+    // Blossoms: b(t0, t0, t0), b(t0, t0, t1), ... from values and the polar form of a cubic by its
+    // interpolation.
     const double h = t1 - t0, f0 = value(t0), f1 = value(t0 + h / 3), f2 = value(t0 + 2 * h / 3), f3 = value(t1);
     return {f0, (-5 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 6, (2 * f0 - 9 * f1 + 18 * f2 - 5 * f3) / 6, f3};
 }

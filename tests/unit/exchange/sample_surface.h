@@ -14,8 +14,8 @@ inline std::vector<double> uneven_clamped_knots(int degree, int count)
     return knots;
 }
 
-/// A doubly curved bicubic surface of the given size in mm, away from the origin, no coordinate a short decimal
-/// fraction.
+/// A doubly curved bicubic surface of the given size in mm, away from the origin, no coordinate a
+/// short decimal fraction.
 inline NurbsSurface curved_surface(double size, bool rational, int count_u = 9, int count_v = 7)
 {
     NurbsSurface s;
@@ -36,7 +36,8 @@ inline NurbsSurface curved_surface(double size, bool rational, int count_u = 9, 
     return s;
 }
 
-/// Half of the patch u in [0, 1] by x, so that two of them meet in a border row of the same doubles.
+/// Half of the patch u in [0, 1] by x, so that two of them meet in a border row of the same
+/// doubles.
 inline NurbsSurface beside(const NurbsSurface& left)
 {
     NurbsSurface right = left;

@@ -1,4 +1,5 @@
-// The DXF file of a blank as a laser and a press brake take it: circles, arcs and lines, read back by our own reader.
+// The DXF file of a blank as a laser and a press brake take it: circles, arcs and lines, read back
+// by our own reader.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -63,7 +64,8 @@ OutlineLoop rounded(double width, double height, double radius, int chords, int 
             points.emplace_back(a + (b - a) * c / cuts);
     }
     const auto same = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm() < 1e-9; };
-    points.erase(std::unique(points.begin(), points.end(), same), points.end()); // a side without length
+    // a side without length
+    points.erase(std::unique(points.begin(), points.end(), same), points.end());
     if (same(points.front(), points.back()))
         points.pop_back();
     std::rotate(points.begin(), points.begin() + begun % int(points.size()), points.end());
@@ -101,7 +103,8 @@ TEST(OutlineCurves, ACircleOfTheFileIsFoundExactly)
 
 TEST(OutlineCurves, WhatIsStatedIsTakenHoweverFewChordsItHas)
 {
-    // A slot with two chords to each end, which nothing but the file could tell from corners; one side in three pieces.
+    // A slot with two chords to each end, which nothing but the file could tell from corners; one
+    // side in three pieces.
     const double r = 5, l = 20;
     Points points;
     add_arc(points, {l, 0}, r, -pi / 2, pi, 2);

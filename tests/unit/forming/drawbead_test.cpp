@@ -70,13 +70,15 @@ TEST(Drawbead, TheForceGrowsSteadilyFromZeroWithTheDepth)
 
 TEST(Drawbead, AShallowOneBendsTheSheetAsABeamThatStaysLevelAtItsEnds)
 {
-    // Ideally plastic, without friction: six times the moment's work over the curvature beyond the elastic one.
+    // Ideally plastic, without friction: six times the moment's work over the curvature beyond the
+    // elastic one.
     const double t = 1, stress = 200, plane = 2 / std::sqrt(3.0), moment = plane * stress * t * t / 4, span = 9;
     const double elastic = 2 * plane * (stress / 206000) * (1 - 0.09) / t;
     const auto force = [&](double depth) { return drawbead_force({5, 3, depth, 0}, plastic(stress), t); };
     for (const double depth : {0.2, 0.5, 1., 2.})
         EXPECT_NEAR(force(depth), 6 * moment * (6 * depth / (span * span) - elastic), 1e-3 * moment) << depth;
-    const double first = elastic * span * span / 6; // depth at which the outer fibre yields: 0.03 mm
+    const double first = elastic * span * span / 6; // depth at which the outer fibre yields: 0.03
+                                                    // mm
     EXPECT_EQ(force(0.999 * first), 0);
     EXPECT_GT(force(1.1 * first), 0);
     EXPECT_NEAR(force(4), 2 * moment * (2 / 3.5 + 1 / 5.5), 1e-4 * moment); // it lies on the tools
@@ -99,8 +101,10 @@ TEST(Drawbead, AShapeTakesTheSheetInWhichTheMiddleOfItsLineLies)
     const auto force = [&](const std::vector<Eigen::Vector3d>& line) {
         return drawbead_force(bead, line, part, base, 1, pieces);
     };
-    EXPECT_EQ(force({{5, 20, 0}, {30, 20, 0}, {40, 20, 0}}), drawbead_force(bead, strong, 2));   // the later one
-    EXPECT_EQ(force({{5, 20, 0}, {15, 20, 0}, {99, 20, 1}}), drawbead_force(bead, strong, 1.5)); // middle at 52
+    // the later one
+    EXPECT_EQ(force({{5, 20, 0}, {30, 20, 0}, {40, 20, 0}}), drawbead_force(bead, strong, 2));
+    // middle at 52
+    EXPECT_EQ(force({{5, 20, 0}, {15, 20, 0}, {99, 20, 1}}), drawbead_force(bead, strong, 1.5));
     EXPECT_EQ(force({{75, 20, 0}, {99, 20, 0}}), drawbead_force(bead, base, 1));
     EXPECT_EQ(drawbead_force(bead, {{5, 20, 0}, {9, 20, 0}}, part, base, 1, {}), drawbead_force(bead, base, 1));
 }

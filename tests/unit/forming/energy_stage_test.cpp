@@ -51,8 +51,8 @@ TEST(EnergyStage, HeldAtTheFreeBlankMovedAwayTheRestFollowsAndTheHeldStay)
 
 TEST(EnergyStage, ASpringStretchesAStripAsFarAsItsForceGoes)
 {
-    // Two springs k hold the ends of a strip of length L and width w half of d beyond them: they are the sheet's own springs
-    // E h w / L in a row as long as it is elastic.
+    // Two springs k hold the ends of a strip of length L and width w half of d beyond them: they
+    // are the sheet's own springs E h w / L in a row as long as it is elastic.
     const double L = 100, w = 10, d = 1e-3, young = 206000, h = 0.8;
     Held strip{shapes::rectangle(L, w, 20, 2)};
     EnergyOptions options;
@@ -63,11 +63,12 @@ TEST(EnergyStage, ASpringStretchesAStripAsFarAsItsForceGoes)
             options.held.push_back({v, x + Eigen::Vector2d(x[0] < 1 ? -d / 2 : d / 2, 0)});
     }
     const double per_end = double(options.held.size()) / 2, sheet = young * h * w / L;
-    options.spring =
-        sheet / per_end; // k of an end is as stiff as the sheet: a third of the way is left to each of the three
+    options.spring = sheet / per_end; // k of an end is as stiff as the sheet: a third of the way is
+                                      // left to each of the three
     const Eigen::Matrix2Xd X = strip.solve(strip.part.position.topRows<2>(), options).position;
     const double longer = X.row(0).maxCoeff() - X.row(0).minCoeff() - L;
-    EXPECT_NEAR(longer / d, 1. / 3, 0.02); // the ends do not narrow with the rest; r is not the elastic Poisson's ratio
+    EXPECT_NEAR(longer / d, 1. / 3, 0.02); // the ends do not narrow with the rest; r is not the
+                                           // elastic Poisson's ratio
 }
 
 } // namespace spia

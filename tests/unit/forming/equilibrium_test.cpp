@@ -164,7 +164,8 @@ TEST(Equilibrium, TheAxesDoNotChangeTheForces)
     const Eigen::VectorXd a = work.residual(X);
     work.set_axes(1.7 * flat);
     const Eigen::VectorXd b = work.residual(X);
-    // Two forces in the same tangent plane, written in axes T and T': both zero or none, and near each other here.
+    // Two forces in the same tangent plane, written in axes T and T': both zero or none, and near
+    // each other here.
     for (int v = 0; v < part.vertices(); ++v) {
         const double cosine = a.segment<2>(2 * v).normalized().dot(b.segment<2>(2 * v).normalized());
         EXPECT_GT(cosine, 0.9) << v;
@@ -244,7 +245,8 @@ TEST(Equilibrium, VerticesAgreeWhereTheStrainIsUniform)
     work.relax(std::vector<char>(size_t(flat.vertices()), 1));
     EXPECT_LT((work.residual(uniform) - strict).norm(), 1e-12 * strict.norm());
 
-    Eigen::Matrix2Xd kinked = flat.position.topRows<2>(); // twice as long beyond x = 15: F jumps by 2 there
+    Eigen::Matrix2Xd kinked = flat.position.topRows<2>(); // twice as long beyond x = 15: F jumps by
+                                                          // 2 there
     for (int v = 0; v < flat.vertices(); ++v)
         if (kinked(0, v) > 15)
             kinked(0, v) += kinked(0, v) - 15;

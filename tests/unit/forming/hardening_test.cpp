@@ -17,7 +17,8 @@ const std::vector<Hardening> laws = {
     SwiftVoce{0.4, {565.32, 0.007117, 0.2589}, {130, 290, 12}},
 };
 
-/// Integral of the stress from 0, by Simpson's rule in eps = u^4: that tames the infinite slopes at 0.
+/// Integral of the stress from 0, by Simpson's rule in eps = u^4: that tames the infinite slopes at
+/// 0.
 double area_under(const Hardening& law, double end)
 {
     const int pieces = 2000;
@@ -147,7 +148,8 @@ TEST(StressCurve, YieldsWhereHookesLineMeetsTheLawHoweverSteepItStarts)
             before = f.stress;
         }
     }
-    // Ludwik by hand: 100 + 1000 sqrt(e) = 200000 e at u = sqrt(e) = (1000 + sqrt(1e6 + 8e7)) / 4e5 = 0.025
+    // Ludwik by hand: 100 + 1000 sqrt(e) = 200000 e at u = sqrt(e) = (1000 + sqrt(1e6 + 8e7)) / 4e5
+    // = 0.025
     EXPECT_NEAR(StressCurve(Ludwik{100, 1000, 0.5}, 200000, {}).yield_strain(), 0.025 * 0.025, 1e-15);
 }
 

@@ -33,7 +33,8 @@ std::vector<std::string> stems()
 
 Json json_of(const std::string& stem) { return Json::parse(content_of(shipped / (stem + ".json"))); }
 
-/// The message of the InputError that an action ends with; a failed expectation and "" if it does not.
+/// The message of the InputError that an action ends with; a failed expectation and "" if it does
+/// not.
 std::string complaint(const std::function<void()>& action)
 {
     try {
@@ -48,9 +49,9 @@ std::string complaint(const std::function<void()>& action)
     return "";
 }
 
-/// What a tensile test would show: necking begins where the slope of the true curve has fallen to the stress
-/// (Considere), the tensile strength is the load there over the first area, the proof stress has left a strain of
-/// 0.002.
+/// What a tensile test would show: necking begins where the slope of the true curve has fallen to
+/// the stress (Considere), the tensile strength is the load there over the first area, the proof
+/// stress has left a strain of 0.002.
 struct TensileTest {
     double uniform_strain; ///< logarithmic
     double strength_MPa;
@@ -139,7 +140,8 @@ TEST(MaterialLibrary, EveryShippedGradeSaysWhereItsValuesComeFrom)
         for (const char* part : {"hardening", "r", "elastic"})
             EXPECT_FALSE(json.at("sources").at(part).get<std::string>().empty()) << part;
         EXPECT_TRUE(json.at("verified").is_boolean());
-        EXPECT_FALSE(json.at("note").get<std::string>().empty()); // where it was seen, or why it could not be
+        // where it was seen, or why it could not be
+        EXPECT_FALSE(json.at("note").get<std::string>().empty());
     }
 }
 
@@ -195,8 +197,8 @@ TEST(MaterialLibrary, EveryShippedGradeBeginsToNeckWhereItsLawSays)
     }
 }
 
-/// The laws come from tests of single sheets, the standards bound what may be sold under the name: an
-/// independent measure of each whole curve, by a tenth since laws are fitted for larger strains.
+/// The laws come from tests of single sheets, the standards bound what may be sold under the name:
+/// an independent measure of each whole curve, by a tenth since laws are fitted for larger strains.
 TEST(MaterialLibrary, AShippedGradeHasTheStrengthThatItsStandardDemands)
 {
     struct Demand {
@@ -317,7 +319,8 @@ TEST(MaterialLibrary, OneNameForTwoGradesIsAnError)
     EXPECT_EQ(read_materials(folder / "").size(), 2u);
 }
 
-/// Each flaw alone in an otherwise good file must be refused by the name of the file and of the key.
+/// Each flaw alone in an otherwise good file must be refused by the name of the file and of the
+/// key.
 TEST(MaterialLibrary, AMalformedFileIsRefusedByFileAndKey)
 {
     const ScratchFolder folder;

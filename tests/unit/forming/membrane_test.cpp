@@ -19,8 +19,8 @@ Eigen::Matrix2d turned(double s1, double s2, std::mt19937& random)
            Eigen::Rotation2Dd(angle(random)).toRotationMatrix();
 }
 
-/// States on every piece of the stress curve: elastic, at the knee, plastic, at and beyond the trusted strain, and
-/// with equal principal stretches.
+/// States on every piece of the stress curve: elastic, at the knee, plastic, at and beyond the
+/// trusted strain, and with equal principal stretches.
 std::vector<Eigen::Matrix2d> states()
 {
     std::mt19937 random(7);
@@ -82,7 +82,8 @@ TEST(Membrane, StiffnessIsTheSecondDerivativeWhereTheCurveIsSteeperThanItsSecant
     const Eigen::Matrix2d elastic = turned(1.00005, 1.00003, random);
     const Eigen::Matrix4d stiffness = energy_density(law, elastic).stiffness;
     EXPECT_LT((hessian_by_differences(law, elastic) - stiffness).norm(), 1e-5 * stiffness.norm());
-    // In the continuation some are not, but equal compression or stretching of both axes has a positive one.
+    // In the continuation some are not, but equal compression or stretching of both axes has a
+    // positive one.
     for (const double s : {2.0, 0.4}) {
         const Eigen::Matrix2d G = turned(s, s, random);
         const Eigen::Vector4d scaling = G.reshaped();
@@ -145,7 +146,8 @@ TEST(Membrane, UniaxialTensionGivesTheFlowCurveAndTheLankfordCoefficient)
     const Material material = mild_steel();
     const MembraneLaw law(material);
     const double r = 1.77, strain = 0.2;
-    // In uniaxial tension eps_2 = -r/(1+r) eps_1 (width to thickness strain r), sigma_2 = 0, sigma_1 = sigma_Y(eps_1).
+    // In uniaxial tension eps_2 = -r/(1+r) eps_1 (width to thickness strain r), sigma_2 = 0,
+    // sigma_1 = sigma_Y(eps_1).
     const PlaneStress p = law({strain, -r / (1 + r) * strain});
     EXPECT_NEAR(p.equivalent_strain, strain, 1e-14);
     EXPECT_NEAR(p.stress[0], 565.32 * std::pow(0.007117 + strain, 0.2589), 1e-10);
@@ -206,8 +208,9 @@ TEST(PlanarAnisotropy, TurningTheSheetWithItsRollingDirectionChangesNothing)
 
 TEST(PlanarAnisotropy, TensionAlongAcrossAndBetweenGivesTheLankfordCoefficients)
 {
-    // Pulled along a direction, the width strain is r times the thickness strain: eps_width = -r/(1+r) eps. Then there is
-    // no stress but along it. Between the two the principal axes are those of the pull only for r0 = r90.
+    // Pulled along a direction, the width strain is r times the thickness strain: eps_width =
+    // -r/(1+r) eps. Then there is no stress but along it. Between the two the principal axes are
+    // those of the pull only for r0 = r90.
     const auto pulled = [](const Material& material, double r, double angle) {
         const MembraneLaw law(material, {}, 0.0);
         const Eigen::Matrix2d axes = Eigen::Rotation2Dd(angle).toRotationMatrix();
@@ -223,8 +226,10 @@ TEST(PlanarAnisotropy, TensionAlongAcrossAndBetweenGivesTheLankfordCoefficients)
         EXPECT_NEAR(p.stress[1], 0, 1e-10);
         EXPECT_NEAR(p.stress[2], 0, 1e-10);
     }
-    EXPECT_NEAR(along.stress[0], 570 * std::pow(0.21, 0.24), 1e-9); // the curve is the one along the rolling direction
-    // Across: sigma_eq^2 = (F + H) sigma^2, and the plastic work is that of the curve: sigma eps = sigma_eq eps_eq.
+    // the curve is the one along the rolling direction
+    EXPECT_NEAR(along.stress[0], 570 * std::pow(0.21, 0.24), 1e-9);
+    // Across: sigma_eq^2 = (F + H) sigma^2, and the plastic work is that of the curve: sigma eps =
+    // sigma_eq eps_eq.
     const double F = 0.7 / (1.3 * 1.7), H = 0.7 / 1.7;
     EXPECT_NEAR(across.equivalent_stress, std::sqrt(F + H) * across.stress[0], 1e-9);
     EXPECT_NEAR(across.equivalent_stress * across.equivalent_strain, across.stress[0] * 0.2, 1e-9);

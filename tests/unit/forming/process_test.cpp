@@ -94,13 +94,15 @@ TEST(Process, AnEdgeRestraintIsAShareOfTheLockForceSquareToTheEdge)
     for (const Restraint& r : forces(process, part).restraint)
         if (std::abs(r.across[0]) > 0.99)
             across_x += r.force;
-    // Two sides of 40 mm, less half an edge (5 mm) at each corner, where the force goes at an angle.
+    // Two sides of 40 mm, less half an edge (5 mm) at each corner, where the force goes at an
+    // angle.
     EXPECT_NEAR(across_x, 0.3 * lock_force(steel, 0.8) * 2 * (40 - 5), 1e-6);
 }
 
 TEST(Process, TheLockForceIsTheLimitOfAPlaneStrainStrip)
 {
-    // K (e0 + eps_eq)^n exp(-eps) times the plane strain factor is greatest where factor * n / (e0 + eps_eq) = 1.
+    // K (e0 + eps_eq)^n exp(-eps) times the plane strain factor is greatest where factor * n / (e0
+    // + eps_eq) = 1.
     const double r = 1.77, factor = (1 + r) / std::sqrt(1 + 2 * r), n = 0.2589, e0 = 0.007117;
     const double equivalent = factor * n - e0;
     const double expected = 0.8 * factor * 565.32 * std::pow(factor * n, n) * std::exp(-equivalent / factor);
@@ -124,7 +126,8 @@ TEST(Process, ALineMayBridgeABulgeButNotTheEdge)
 {
     const auto bead = [](const TriMesh& part) {
         ProcessConditions process;
-        process.drawbeads = {{"b", {part.position.col(0), part.position.col(10)}, 80}}; // along the lower side
+        // along the lower side
+        process.drawbeads = {{"b", {part.position.col(0), part.position.col(10)}, 80}};
         return refusal(process, part);
     };
     const auto bent = [](double height, int axis) { // of 100 x 40 mm: a diagonal of 108 mm
@@ -249,11 +252,13 @@ TEST(Process, WhatIsWrongIsNamed)
     ProcessConditions process;
     process.drawbeads = {{"b1", {{20, 5, 30}, {20, 35, 30}}, 80}};
     EXPECT_NE(refusal(process, part).find("\"b1\": the place (20, "), std::string::npos);
-    process.drawbeads = {{"b1", {{50.9, 5, 0}, {50.9, 35, 0}}, 80}}; // beside it, though nearer than an edge is long
+    // beside it, though nearer than an edge is long
+    process.drawbeads = {{"b1", {{50.9, 5, 0}, {50.9, 35, 0}}, 80}};
     EXPECT_NE(refusal(process, part).find("0.9 mm off the part"), std::string::npos) << refusal(process, part);
     process.drawbeads = {{"b1", {{45, 2, 0}, {50, 20, 0}, {55, 40, 0}}, 80}};
     EXPECT_NE(refusal(process, part).find("off the part"), std::string::npos);
-    process.drawbeads = {{"b1", {{20, 5, 3}, {20, 20, 40}, {20, 35, 4}}, 80}}; // the worst of its places is named
+    // the worst of its places is named
+    process.drawbeads = {{"b1", {{20, 5, 3}, {20, 20, 40}, {20, 35, 4}}, 80}};
     EXPECT_NE(refusal(process, part).find("(20, 20, 40) is 40 mm off"), std::string::npos) << refusal(process, part);
     process.drawbeads = {{"b1", {{20, 5, 0}}, 80}};
     EXPECT_NE(refusal(process, part).find("at least two different places"), std::string::npos);

@@ -47,7 +47,8 @@ TEST(SheetFields, AFaceIsMarkedFromTheTrustedStrainOn)
     StressCurve::Options curve;
     curve.trusted_strain = 0.2;
     const MembraneLaw law({"m", 206000, 0.3, 7850, Swift{565, 0.007, 0.26}, 1, 1, 1, ""}, curve);
-    for (const double strain : {0.19, 0.21}) { // uniaxial: the minor strain is -r / (1 + r) times the major one
+    for (const double strain : {0.19, 0.21}) { // uniaxial: the minor strain is -r / (1 + r) times
+                                               // the major one
         Eigen::Matrix2Xd X = part.position.topRows<2>();
         X.row(0) *= std::exp(-strain);
         X.row(1) *= std::exp(strain / 2);

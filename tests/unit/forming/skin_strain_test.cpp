@@ -61,7 +61,8 @@ TEST(SkinStrain, OfARolledSheetIsTheLogarithmOfTheRadii)
         last = error;
         EXPECT_NEAR(skin.curvature.mean(), 1 / radius, 0.015 / (fine * fine) / radius) << "order 2";
         EXPECT_EQ(skin.sharp_faces, 0);
-        // Bent in plane strain: eps_eq of an isotropic sheet is 2 / sqrt(3) of the strain across the bend.
+        // Bent in plane strain: eps_eq of an isotropic sheet is 2 / sqrt(3) of the strain across
+        // the bend.
         EXPECT_NEAR(skin.outer.strain_equivalent.mean(), 2 / std::sqrt(3.0) * outer, 0.02 * outer);
     }
 }

@@ -20,7 +20,8 @@ using testing::HasSubstr;
 
 constexpr double young = 206000;
 
-/// A bar of a known law, pulled through its greatest force: total strain = plastic strain + sigma / E.
+/// A bar of a known law, pulled through its greatest force: total strain = plastic strain + sigma /
+/// E.
 struct Bar {
     std::vector<double> strain, stress; ///< engineering
 };
@@ -74,7 +75,8 @@ template <class Law> Law recovered(const Law& truth, double noise)
     const auto fits = fit_hardening(test.plastic_strain, test.stress_MPa);
     const LawFit& fit = fit_of(fits, std::string(law_name(truth)));
     EXPECT_TRUE(fit.law) << fit.reason;
-    EXPECT_NEAR(fit.rms_MPa, noise, 0.3 * noise + 0.1) << fit.name; // what the law leaves is the noise alone
+    // what the law leaves is the noise alone
+    EXPECT_NEAR(fit.rms_MPa, noise, 0.3 * noise + 0.1) << fit.name;
     EXPECT_LT(best_fit(fits).rms_MPa, 1.05 * fit.rms_MPa + 0.05);
     return std::get<Law>(*fit.law);
 }

@@ -1,4 +1,5 @@
-// Patches that end on the sharp edges of a part: folded sheets, whose flat sides four control points each way hold exactly.
+// Patches that end on the sharp edges of a part: folded sheets, whose flat sides four control
+// points each way hold exactly.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -27,7 +28,8 @@ struct Sheet {
     Blank blank;
 };
 
-/// A rectangle of square cells of 5 mm, x from 0 and y from 0, without the cells that are not to be there, and bent: place(x, y).
+/// A rectangle of square cells of 5 mm, x from 0 and y from 0, without the cells that are not to be
+/// there, and bent: place(x, y).
 Sheet sheet(int columns, int rows, const std::function<bool(int, int)>& there,
             const std::function<Eigen::Vector3d(double, double)>& place)
 {
@@ -228,7 +230,8 @@ TEST(Edges, AHoleMayLieAcrossAFold)
 
 TEST(Edges, AFoldMayEndWithinTheSheet)
 {
-    // A crease along x = 50 that is flat at y = 0 and sharper and sharper from there on; its projection is taken for the blank.
+    // A crease along x = 50 that is flat at y = 0 and sharper and sharper from there on; its
+    // projection is taken for the blank.
     const auto creased = [](double x, double y) { return Eigen::Vector3d(x, y, std::abs(x - 50) * y / 60); };
     const Sheet crease = sheet(20, 24, everywhere, creased);
     const PatchesFit fit = fitted_along(crease, 0.05);
@@ -242,7 +245,8 @@ TEST(Edges, AFoldMayEndWithinTheSheet)
 
 TEST(Edges, MayBeClosed)
 {
-    // A flat rim, a wall of 60 degrees and a flat top, round: two closed edges. The projection is taken for the blank.
+    // A flat rim, a wall of 60 degrees and a flat top, round: two closed edges. The projection is
+    // taken for the blank.
     const Sheet cup = round_sheet({10, 20, 27, 34, 45, 56}, true, [](const Eigen::Vector2d& at) {
         return Eigen::Vector3d(at.x(), at.y(), std::sqrt(3.) * std::clamp(34 - at.norm(), 0., 14.));
     });
@@ -260,7 +264,8 @@ TEST(Edges, MayBeClosed)
 TEST(Edges, ARoughSheetHasNone)
 {
     const Sheet rough = sheet(30, 30, everywhere, [](double x, double y) {
-        return Eigen::Vector3d(x, y, 4 * std::sin(12.9898 * x + 78.233 * y)); // some 60 degrees at most of its edges
+        // some 60 degrees at most of its edges
+        return Eigen::Vector3d(x, y, 4 * std::sin(12.9898 * x + 78.233 * y));
     });
     EXPECT_TRUE(sharp_edges(rough.part, pi / 4).empty());
     EXPECT_GT(sharp_edges(sheet(20, 12, everywhere, folded(pi / 2)).part, pi / 4).size(), 0u);
@@ -268,7 +273,8 @@ TEST(Edges, ARoughSheetHasNone)
 
 TEST(Edges, ControlPointsThatAreNotEnoughGoToTheFarthestPatches)
 {
-    // Across a fold no count is enough; all that are allowed are used, and more bring the patches nearer.
+    // Across a fold no count is enough; all that are allowed are used, and more bring the patches
+    // nearer.
     const Sheet fold = sheet(23, 12, everywhere, folded(pi / 2));
     LayoutOptions across;
     across.edge_deg = 180;
@@ -326,11 +332,12 @@ TEST(Edges, AChordOfARoundSheetMayBeFolded)
     const Sheet fold = round_sheet({10, 20, 30, 40, 50}, true,
                                    [](const Eigen::Vector2d& at) { return Eigen::Vector3d(at.x(), at.y(), 0); });
     Sheet chord = fold;
-    constexpr double x0 =
-        50 * 0.92387953251128674; // cos(22.5 degrees): the line through the vertices 3 and -3 of the rim
+    constexpr double x0 = 50 * 0.92387953251128674; // cos(22.5 degrees): the line through the
+                                                    // vertices 3 and -3 of the rim
     for (Eigen::Index v = 0; v < chord.part.position.cols(); ++v) {
         Eigen::Vector2d at = fold.blank.position.col(v);
-        // The last ring but one is moved onto the chord where it is beside it; its first vertex close to the rim's.
+        // The last ring but one is moved onto the chord where it is beside it; its first vertex
+        // close to the rim's.
         const double angle = std::atan2(at.y(), at.x()) * 180 / pi;
         if (std::abs(at.norm() - 40) < 1e-9 && angle > -22.6 && angle < 22.4)
             at = Eigen::Vector2d(x0, angle < -22.4 ? -17 : x0 * std::tan(angle * pi / 180));

@@ -15,7 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Degrees, the least and the greatest inner corner of all patches, as their sides leave it over a tenth of their length.
+/// Degrees, the least and the greatest inner corner of all patches, as their sides leave it over a
+/// tenth of their length.
 std::array<double, 2> corners_of(const Layout& layout)
 {
     std::array<double, 2> result = {180, 0};
@@ -73,7 +74,8 @@ TEST(Layers, KeepClearOfCuts)
 }
 
 class LayersOfPlates : public testing::TestWithParam<int> {};
-// Of those that had a corner of more than 180 degrees, or folds, with straight lines from the border alone.
+// Of those that had a corner of more than 180 degrees, or folds, with straight lines from the
+// border alone.
 INSTANTIATE_TEST_SUITE_P(Random, LayersOfPlates, testing::Values(54, 59, 70, 77, 86, 91));
 
 TEST_P(LayersOfPlates, HaveRoomForCellsAtEveryCorner)

@@ -174,7 +174,8 @@ TEST(Patches, OfACylinderWithARoundHoleLieOnIt)
 TEST(Patches, AreTwoWhereACutDividesASheet)
 {
     const TriMesh part = shapes::saddle();
-    const Blank blank{part.position.topRows(2)}; // its projection: one-to-one is all that counts here
+    const Blank blank{part.position.topRows(2)}; // its projection: one-to-one is all that counts
+                                                 // here
     const auto nearest = [&](double x, double y) {
         Eigen::Index v;
         (blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);

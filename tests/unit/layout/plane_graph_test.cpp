@@ -61,7 +61,8 @@ TEST(FlipLines, TurnsTheDiagonalThatLeavesThinTriangles)
 
 TEST(FlipLines, LeavesADiagonalWhoseOtherOneIsOutside)
 {
-    PlaneGraph graph = graph_of({{0, 0}, {4, -5}, {1, 0.1}, {4, 5}}, {0, 1, 2, 3}); // bent inwards at vertex 2
+    // bent inwards at vertex 2
+    PlaneGraph graph = graph_of({{0, 0}, {4, -5}, {1, 0.1}, {4, 5}}, {0, 1, 2, 3});
     add(graph, 0, 2, false);
     flip_lines(graph, 4);
     EXPECT_EQ(graph.curve[4].vertex, (std::array{0, 2}));

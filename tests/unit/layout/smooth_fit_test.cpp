@@ -16,7 +16,8 @@ constexpr double degree = std::numbers::pi / 180;
 
 using patches::greatest_angle;
 
-/// A plate of 120 x 80 mm with two holes, lifted by a height; its projection is its blank (one-to-one is all that counts here).
+/// A plate of 120 x 80 mm with two holes, lifted by a height; its projection is its blank
+/// (one-to-one is all that counts here).
 struct Sheet {
     TriMesh part = shapes::plate({120, 80, {{{35, 40}, 12}, {{85, 45}, 10}}, 6000});
     Blank blank;
@@ -92,7 +93,8 @@ TEST(SmoothFit, KeepsPatchesThatWouldBeWorse)
     const Sheet sheet(dome);
     PatchesFit fit = fitted(sheet, false);
     const MultiPatch before = fit.patches;
-    // By a tolerance that none of them keeps, a patch may only come nearer to the part: some do, the others stay as they were.
+    // By a tolerance that none of them keeps, a patch may only come nearer to the part: some do,
+    // the others stay as they were.
     constexpr double none = 1e-4;
     const PatchesJudge judge(sheet.part, sheet.blank, fit.layout, none);
     const PatchesJudgement now = judge.judge(before.patch);

@@ -59,7 +59,8 @@ TEST(Spokes, OfARegularHexagonAreItsRadii)
     ASSERT_TRUE(found);
     EXPECT_LT(found->centre.norm(), 0.05); // the triangles are uneven
     expect_apart(*found, polygon, start);
-    for (const Eigen::Matrix2Xd& line : found->line) // straight, but for the unevenness of the triangles
+    for (const Eigen::Matrix2Xd& line : found->line) // straight, but for the unevenness of the
+                                                     // triangles
         for (Eigen::Index i = 0; i < line.cols(); ++i) {
             const Eigen::Vector2d along = line.col(0).normalized();
             EXPECT_LT(std::abs(along.x() * line(1, i) - along.y() * line(0, i)), 0.06);

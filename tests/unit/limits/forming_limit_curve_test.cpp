@@ -44,7 +44,8 @@ TEST(KeelerBrazier, Flc0IsThatComputedByHandForThreeThicknessesAndThreeExponents
 TEST(KeelerBrazier, BranchesKeepTheThicknessOnTheLeftAndRiseByThreeFifthsOnTheRight)
 {
     const FormingLimitCurve curve = keeler_brazier(1.0, 0.21); // FLC0 37.43 %
-    for (const double minor : {-0.5, -0.3, -0.1, -0.01})       // thickness strain at necking: -ln 1.3743
+    // thickness strain at necking: -ln 1.3743
+    for (const double minor : {-0.5, -0.3, -0.1, -0.01})
         EXPECT_NEAR(curve(minor) + minor, std::log(1.3743), 1e-12);
     // By hand: e2 = -20 %: 1.3743 / 0.8 - 1 = 71.79 %, e2 = 10 %: 43.43 %, e2 = 20 %: 49.43 %
     EXPECT_NEAR(engineering_strain(curve(logarithmic_strain(-0.2))), 0.717875, 1e-9);

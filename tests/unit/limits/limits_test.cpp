@@ -17,7 +17,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Triangles in a row, each sharing an edge with the next: vertices 0 2 4 ... below, 1 3 5 ... above, 1 mm apart.
+/// Triangles in a row, each sharing an edge with the next: vertices 0 2 4 ... below, 1 3 5 ...
+/// above, 1 mm apart.
 TriMesh row_of(int triangles)
 {
     TriMesh mesh;
@@ -92,7 +93,8 @@ TEST(Zones, EveryOneIsReachedAsItIsWritten)
     EXPECT_EQ(zone_at(0.10, -0.20), Zone::strong_thickening);  // 1 / 0.88: 13.6 % thicker
     EXPECT_EQ(zone_at(0.10, -0.15), Zone::wrinkling_tendency); // 1 / 0.935: 7 %
     EXPECT_EQ(zone_at(0.10, -0.15, {.max_thickening = 0.05}), Zone::strong_thickening);
-    EXPECT_EQ(zone_at(0.10, -0.0909), Zone::safe);               // 1.1 * 0.9091 = 1.00001: thins a hair
+    // 1.1 * 0.9091 = 1.00001: thins a hair
+    EXPECT_EQ(zone_at(0.10, -0.0909), Zone::safe);
     EXPECT_EQ(zone_at(0.10, -0.0910), Zone::wrinkling_tendency); // and thickens a hair
     EXPECT_EQ(zone_at(0.019, 0), Zone::low_strain);
     EXPECT_EQ(zone_at(0.019, -0.019), Zone::low_strain);
@@ -114,7 +116,8 @@ TEST(Zones, TheMarginIsInPointsOfEngineeringStrainOnBothBranches)
             EXPECT_EQ(zone_at(limit - margin + 1e-6, e2, options), Zone::marginal) << e2;
             EXPECT_EQ(zone_at(limit - margin - 1e-6, e2, options), Zone::safe) << e2;
         }
-        EXPECT_EQ(zone_at(limit - 1e-6, e2, {.margin = 0, .max_thinning = 0.9}), Zone::safe); // no band
+        // no band
+        EXPECT_EQ(zone_at(limit - 1e-6, e2, {.margin = 0, .max_thinning = 0.9}), Zone::safe);
     }
 }
 
@@ -161,7 +164,8 @@ TEST(Zones, CountsAndAreasAddUpToThePart)
 TEST(Zones, WorstSpotsAreTheWorstFacesOfConnectedRegionsInOrder)
 {
     const double l = std::log(1.15); // safe
-    // crack at 2..4 (worst 3), crack at 7, risk at 9..10 (worst 9), thinner than allowed at 12, marginal at 14
+    // crack at 2..4 (worst 3), crack at 7, risk at 9..10 (worst 9), thinner than allowed at 12,
+    // marginal at 14
     std::vector<std::pair<double, double>> strains(15, {l, 0});
     for (const auto& [f, major] : {std::pair{2, 1.40}, {3, 1.50}, {4, 1.45}, {7, 1.60}, {9, 1.36}, {10, 1.33}})
         strains[size_t(f)].first = std::log(major);
@@ -231,7 +235,8 @@ TEST(FormingLimits, TheSheetChoosesCurveAndMargin)
     const LimitsResult of_steel = forming_limits(part, face, steel(), 1);
     ASSERT_TRUE(of_steel.curve);
     EXPECT_EQ(of_steel.settings.margin, 0.10);
-    EXPECT_NEAR(engineering_strain(of_steel.curve->at_plane_strain()), 0.3743 * 0.2 / 0.21, 1e-9); // Hollomon: its n
+    // Hollomon: its n
+    EXPECT_NEAR(engineering_strain(of_steel.curve->at_plane_strain()), 0.3743 * 0.2 / 0.21, 1e-9);
     EXPECT_TRUE(of_steel.notes.empty());
     LimitsOptions options;
     options.n = 0.1;
@@ -306,7 +311,8 @@ TEST(FormingLimits, AnAluminiumPieceOnSteelHasItsOwnMarginAndNoCurveUnlessAskedF
     LimitsOptions points;
     points.source = LimitsOptions::Source::points;
     points.curve = curve_through({-0.4, 0.4}, {0.4, 0.4}, false, "level");
-    std::vector<std::pair<double, double>> strains(4, {std::log(std::exp(0.4) - 0.09), 0}); // 9 points are left
+    // 9 points are left
+    std::vector<std::pair<double, double>> strains(4, {std::log(std::exp(0.4) - 0.09), 0});
     const LimitsResult level = forming_limits(row_of(4), fields_of(strains), steel(), 1, points,
                                               std::array{TailoredPiece{"patch", {1, 2}, aluminium_of(2700), 1.2}});
     using enum Zone;
@@ -419,7 +425,8 @@ TEST(FormingLimits, MetalsAreToldApartByDensityAndModulus)
     EXPECT_TRUE(judged(206000, 7850, 0.2).curve);
     EXPECT_FALSE(judged(206000, 8900, 0.2).curve); // nickel
     EXPECT_FALSE(judged(206000, 7300, 0.2).curve);
-    EXPECT_EQ(judged(70000, 7850, 0.2).settings.margin, 0.08); // a fitted grade with the density of steel
+    // a fitted grade with the density of steel
+    EXPECT_EQ(judged(70000, 7850, 0.2).settings.margin, 0.08);
     EXPECT_FALSE(judged(70000, 7850, 0.2).curve);
     EXPECT_EQ(judged(110000, 4500, 0.2).settings.margin, 0.10); // titanium
     const auto for_austenite = testing::Contains(HasSubstr("austenitic"));

@@ -20,8 +20,9 @@ Eigen::Vector3d random_point(double size)
     return {coordinate(random_numbers), coordinate(random_numbers), coordinate(random_numbers)};
 }
 
-/// A place of a convex set is the nearest one to a point exactly if no corner of the set lies on the point's
-/// side of the plane through the place. How far the farthest corner is on the wrong side, mm.
+/// A place of a convex set is the nearest one to a point exactly if no corner of the set lies on
+/// the point's side of the plane through the place. How far the farthest corner is on the wrong
+/// side, mm.
 double on_the_wrong_side(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& place, const Eigen::Vector3d& point)
 {
     const double distance = (point - place).norm();
@@ -70,7 +71,8 @@ TEST(ClosestPoint, NeedlesAndPointsAreNoTrap)
             for (double off : {0., 1e-3, 5.}) {
                 const Eigen::Vector3d b = closest_on_triangle(needle, along * axis + off * aside);
                 const double truth = std::hypot(off, std::max({0., -15 - along, along - 30}));
-                // the needle is not thicker than this, and a foot is found to the root of the precision
+                // the needle is not thicker than this, and a foot is found to the root of the
+                // precision
                 const double tolerance = thickness + 1e-6;
                 EXPECT_NEAR((needle * b - along * axis - off * aside).norm(), truth, tolerance) << thickness;
                 EXPECT_TRUE(b.allFinite() && b.minCoeff() >= 0);
@@ -82,7 +84,8 @@ TEST(ClosestPoint, NeedlesAndPointsAreNoTrap)
 
 TEST(ClosestPoint, SearchFindsWhatTryingAllFacesFinds)
 {
-    for (double size : {1., 20., 150.}) { // from grains far from each other to triangles all through each other
+    for (double size : {1., 20., 150.}) { // from grains far from each other to triangles all
+                                          // through each other
         const TriMesh mesh = soup(700, size);
         const ClosestPointSearch search(mesh);
         for (int i = 0; i < 300; ++i) {
@@ -101,7 +104,8 @@ TEST(ClosestPoint, SearchFindsWhatTryingAllFacesFinds)
     }
 }
 
-/// Needles all through each other, some of them askew: their boxes are cut to pieces, the answers are those of whole faces.
+/// Needles all through each other, some of them askew: their boxes are cut to pieces, the answers
+/// are those of whole faces.
 TEST(ClosestPoint, OfNeedlesItFindsTheSameBitsAsTryingAllOfThem)
 {
     TriMesh mesh = soup(400, 60);
@@ -110,7 +114,8 @@ TEST(ClosestPoint, OfNeedlesItFindsTheSameBitsAsTryingAllOfThem)
     const ClosestPointSearch search(mesh);
     for (int i = 0; i < 3000; ++i) {
         const Eigen::Vector3d on = mesh.position.col(i % mesh.vertices());
-        const Eigen::Vector3d point = i < mesh.vertices() ? on : random_point(100); // at corners, too
+        // at corners, too
+        const Eigen::Vector3d point = i < mesh.vertices() ? on : random_point(100);
         int truth = -1;
         double least = std::numeric_limits<double>::infinity();
         for (int f = 0; f < mesh.triangles(); ++f) {
@@ -127,7 +132,8 @@ TEST(ClosestPoint, OfNeedlesItFindsTheSameBitsAsTryingAllOfThem)
     }
 }
 
-/// What makes slivers cheap: how many boxes of leaves hold a place among needles that lie side by side and askew.
+/// What makes slivers cheap: how many boxes of leaves hold a place among needles that lie side by
+/// side and askew.
 TEST(BoxTree, PiecesOfNeedlesSideBySideHaveBoxesOfTheirOwn)
 {
     const int needles = 400;
@@ -162,7 +168,8 @@ TEST(ClosestPoint, AboveAPlaneItIsTheFootAndBesideItTheEdge)
 TEST(ClosestPoint, OfEquallyNearFacesTheFirstIsFound)
 {
     TriMesh mesh = shapes::rectangle(8, 8, 8, 8);
-    mesh.triangle = mesh.triangle.rowwise().reverse().eval(); // the first ones are not those of smallest coordinates
+    // the first ones are not those of smallest coordinates
+    mesh.triangle = mesh.triangle.rowwise().reverse().eval();
     const ClosestPointSearch search(mesh);
     for (int v = 0; v < mesh.vertices(); ++v) { // all faces around a vertex are equally near to it
         int first = mesh.triangles();

@@ -12,7 +12,8 @@
 namespace spia {
 namespace {
 
-/// A sheet of two halves with a row of vertices each at x = 10, the second moved by up to `gap` in x and y.
+/// A sheet of two halves with a row of vertices each at x = 10, the second moved by up to `gap` in
+/// x and y.
 PolygonSoup torn_sheet(double gap)
 {
     PolygonSoup soup;
@@ -54,7 +55,8 @@ TEST(Cracks, ACrackIsNotedWithTheGapThatClosesIt)
     EXPECT_FALSE(examine(torn_sheet(0), {.weld = true}).report.find(Fault::crack));
 }
 
-/// A curved sheet of two halves that are divided otherwise on each side of x = 10, where the second is off by up to `gap`.
+/// A curved sheet of two halves that are divided otherwise on each side of x = 10, where the second
+/// is off by up to `gap`.
 PolygonSoup unlike_halves(std::array<int, 2> divisions, double gap, std::mt19937& draw)
 {
     std::uniform_real_distribution<double> off(-gap / 2, gap / 2);
@@ -83,7 +85,8 @@ TEST(Cracks, SidesOfACrackNeedNotBeDividedAlike)
     for (int round = 0; round < 100; ++round) {
         const std::array divisions{1 + int(draw() % 20), 1 + int(draw() % 20)};
         SCOPED_TRACE(fmt::format("{} and {} edges", divisions[0], divisions[1]));
-        // 2 % of the shorter edges at either side would be a crack; so close together two vertices are one.
+        // 2 % of the shorter edges at either side would be a crack; so close together two vertices
+        // are one.
         const double gap = 0.008 * 20 / std::max(divisions[0], divisions[1]);
         const PolygonSoup soup = unlike_halves(divisions, gap, draw);
         const Examination torn = examine(soup, {.weld = true});

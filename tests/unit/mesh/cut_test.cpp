@@ -25,7 +25,8 @@ namespace {
 using shapes::Cell;
 using std::numbers::pi;
 
-/// What every cut must keep: the faces where they were, the copies behind their originals, and one sheet.
+/// What every cut must keep: the faces where they were, the copies behind their originals, and one
+/// sheet.
 void expect_the_same_part_as_a_sheet(const CutPart& cut, const TriMesh& part)
 {
     ASSERT_EQ(cut.mesh.triangles(), part.triangles());
@@ -41,7 +42,8 @@ void expect_the_same_part_as_a_sheet(const CutPart& cut, const TriMesh& part)
     EXPECT_EQ(type.components, 1);
     EXPECT_EQ(type.genus, 0);
     EXPECT_GE(type.loops, 1);
-    // The seam is its own length, and each of its edges is now an edge of the boundary, once on either side.
+    // The seam is its own length, and each of its edges is now an edge of the boundary, once on
+    // either side.
     double length = 0;
     int edges = 0;
     for (const auto& row : cut.seam)
@@ -103,13 +105,14 @@ TEST(CutOpen, LeavesSheetsWithHolesAlone)
                                                [](const Eigen::Vector3d& x) { return x.head<2>().norm() < 30; });
     for (const TriMesh& part : {shapes::plate(), shapes::inner_panel({.triangles = 6000}).mesh, ring,
                                 shapes::grid_surface({60, 8, true, false},
-                                                     [](double u, double v) -> Eigen::Vector3d { // a flat ring
+                                                     // a flat ring
+                                                     [](double u, double v) -> Eigen::Vector3d {
                                                          return (20 + 40 * v) * Eigen::Vector3d(std::cos(2 * pi * u),
                                                                                                 -std::sin(2 * pi * u),
                                                                                                 0);
                                                      }),
-                                shapes::pipe(50, 50, 35, 60, 7), // a collar: a third of its width high
-                                shapes::pipe(60, 20, 10, 60, 8)}) {
+                                // a collar: a third of its width high
+                                shapes::pipe(50, 50, 35, 60, 7), shapes::pipe(60, 20, 10, 60, 8)}) {
         ASSERT_GT(boundary_loops(part).size(), 1u);
         const CutPart cut = cut_open(part);
         EXPECT_TRUE(cut.seam.empty()) << cut.why;
@@ -131,13 +134,15 @@ TEST(CutOpen, CutsATubeAlongOneGenerator)
     EXPECT_NEAR(cut.length, 100, 1e-9);
     EXPECT_EQ(boundary_loops(cut.mesh).size(), 1u);
     EXPECT_NE(cut.why.find("tube"), std::string::npos);
-    EXPECT_EQ(cut_open(shapes::pipe(50, 50, 50, 60, 10)).seam.size(), 1u); // a little more than a collar
+    // a little more than a collar
+    EXPECT_EQ(cut_open(shapes::pipe(50, 50, 50, 60, 10)).seam.size(), 1u);
     EXPECT_TRUE(cut_open(tube, {SeamOptions::Mode::none}).seam.empty());
 }
 
 TEST(CutOpen, CutsAConeButNotTheShallowOne)
 {
-    // The lines around a cone grow by 2 pi sin(alpha): the scale of the ring by (1 / sin(alpha) - 1) ln(ratio).
+    // The lines around a cone grow by 2 pi sin(alpha): the scale of the ring by (1 / sin(alpha) -
+    // 1) ln(ratio).
     const TriMesh steep = shapes::pipe(20, 60, 150, 48, 30), shallow = shapes::pipe(20, 60, 30, 48, 16);
     expect_the_same_part_as_a_sheet(cut_open(steep), steep);
     EXPECT_EQ(cut_open(steep).seam.size(), 1u);
@@ -173,7 +178,8 @@ TEST(CutOpen, OfATorusTakesItsTwoShortestCircles)
 
 TEST(CutOpen, OfTwoHandlesIsTheShortestOnTheCubes)
 {
-    // A frame of cubes with one window of 1 x 1: around the window 4, around a bar 4, and they meet.
+    // A frame of cubes with one window of 1 x 1: around the window 4, around a bar 4, and they
+    // meet.
     const TriMesh one = shapes::body_surface(frame(3, 3), 10, 2);
     const CutPart cut = cut_open(one);
     expect_the_same_part_as_a_sheet(cut, one);
@@ -272,7 +278,8 @@ TEST(CutOpen, SaysWhatAGivenSeamLeavesThatWouldHaveBeenCut)
     const auto why = [](const TriMesh& part, std::vector<std::vector<int>> path) {
         return cut_open(part, {SeamOptions::Mode::given, std::move(path)}).why;
     };
-    const TriMesh tube = shapes::pipe(25, 25, 100, 40, 25); // 40 vertices a row, or 26 a line: by their places
+    const TriMesh tube = shapes::pipe(25, 25, 100, 40, 25); // 40 vertices a row, or 26 a line: by
+                                                            // their places
     const auto at_height = [&](double z) {
         const Eigen::RowVectorXd off = (tube.position.colwise() - Eigen::Vector3d(25, 0, z)).colwise().squaredNorm();
         Eigen::Index nearest = 0;
@@ -303,11 +310,13 @@ TEST(CutOpen, SaysWhatAGivenSeamLeavesThatWouldHaveBeenCut)
 TEST(CutOpen, GoesWhereItIsTold)
 {
     const TriMesh tube = shapes::pipe(25, 25, 100, 40, 25);
-    const CutPart cut = cut_open(tube, {SeamOptions::Mode::given, {{7, 25 * 40 + 27}}}); // half way around
+    // half way around
+    const CutPart cut = cut_open(tube, {SeamOptions::Mode::given, {{7, 25 * 40 + 27}}});
     expect_the_same_part_as_a_sheet(cut, tube);
     EXPECT_EQ(cut.seam[0].front() + cut.seam[0].back(), 7 + 25 * 40 + 27);
     EXPECT_GT(cut.length, std::hypot(100, 25 * pi) - 1);
-    // A slit from the edge of a plate inwards: the other copy of the end on the edge follows its original.
+    // A slit from the edge of a plate inwards: the other copy of the end on the edge follows its
+    // original.
     const TriMesh plate = shapes::rectangle(40, 30, 4, 3);
     const CutPart slit = cut_open(plate, {SeamOptions::Mode::given, {{2, 7, 12}}});
     expect_the_same_part_as_a_sheet(slit, plate);
@@ -339,7 +348,8 @@ TEST(CutAlong, MakesAsManyCopiesAsPiecesMeet)
 
 TEST(EdgePaths, ReachAFreeRimAsAWhole)
 {
-    // Symmetric about the diagonal from which the ways start: two of the same length lead to the rim.
+    // Symmetric about the diagonal from which the ways start: two of the same length lead to the
+    // rim.
     const TriMesh part = shapes::without_faces(shapes::rectangle(80, 80, 8, 8), [](const Eigen::Vector3d& x) {
         return std::abs(x[0] - 40) < 20 && std::abs(x[1] - 40) < 20;
     });
@@ -374,8 +384,10 @@ TEST(FrontMarch, CrossesTrianglesStraight)
     for (int v = 0; v < part.vertices(); ++v) {
         const double x = part.position(0, v), y = part.position(1, v), before = x - shear * y;
         const double distance = before / std::hypot(1, shear);
-        const double foot = y + shear * distance / std::hypot(1, shear); // of the plumb line on the side
-        if (foot < 10 || foot > 30)                                      // the ends disturb their neighbourhood
+        // of the plumb line on the side
+        const double foot = y + shear * distance / std::hypot(1, shear);
+        // the ends disturb their neighbourhood
+        if (foot < 10 || foot > 30)
             continue;
         ASSERT_NEAR(march.distance(v), distance, 0.01 * distance); // along edges: 12 % too far
         ++compared;
@@ -401,7 +413,8 @@ TEST(RingStrain, OfATubeAConeAndAFlatRingIsTheClosedForm)
     EXPECT_NEAR(tube.reach, 100, 0.5);
     EXPECT_NEAR(tube.ring, lines * 2 * pi * 100 / (2 * pi * 25), 0.02);
     EXPECT_NEAR(tube.fan, 0, 0.02);
-    // A cone of 30 degrees: the lines double and more from 20 to 60 mm of radius; 2 pi s sin(alpha) longer at s.
+    // A cone of 30 degrees: the lines double and more from 20 to 60 mm of radius; 2 pi s sin(alpha)
+    // longer at s.
     const double slope = std::sqrt(3.0);
     const RingStrain cone = measured(shapes::pipe(20, 60, 40 * slope, 96, 40), 0);
     EXPECT_NEAR(cone.reach, 80, 0.5);

@@ -247,7 +247,8 @@ TEST(Doctor, ThirdFaceAtAnEdgeIsFatalAndNamed)
 
 TEST(Doctor, WhoKeepsTheLargestIsNotAdvisedTo)
 {
-    PolygonSoup soup = quads(2, 1); // from the inner edge a flap goes up and down again to the border
+    PolygonSoup soup = quads(2, 1); // from the inner edge a flap goes up and down again to the
+                                    // border
     soup.position.emplace_back(1.2, 0.5, 1);
     soup.add_polygon(std::array<int, 3>{1, 4, 6});
     soup.add_polygon(std::array<int, 3>{4, 5, 6});
@@ -260,7 +261,8 @@ TEST(Doctor, WhoKeepsTheLargestIsNotAdvisedTo)
 
 TEST(Doctor, HolesThatTouchInAVertexAreSeparated)
 {
-    // Two missing cells of 4 x 4 that meet in the vertex (2, 2) = 12: one vertex too few for two proper holes.
+    // Two missing cells of 4 x 4 that meet in the vertex (2, 2) = 12: one vertex too few for two
+    // proper holes.
     const Examination e = examine(quads(4, 4, {5, 10}));
     EXPECT_EQ(count(e, Fault::touching_fans), 1);
     EXPECT_EQ(first(e, Fault::touching_fans), 12);
@@ -269,7 +271,8 @@ TEST(Doctor, HolesThatTouchInAVertexAreSeparated)
     EXPECT_EQ(e.source_vertex[13], 12);
     EXPECT_EQ(e.source_vertex[14], 13);
     EXPECT_EQ(e.mesh.position.col(12), e.mesh.position.col(13));
-    EXPECT_EQ(e.report.boundary_loops, 2); // outer boundary, and the two holes joined through the vertex
+    EXPECT_EQ(e.report.boundary_loops, 2); // outer boundary, and the two holes joined through the
+                                           // vertex
     EXPECT_EQ(e.report.genus, 0);
     EXPECT_EQ(boundary_loops(e.mesh).size(), 2u);
     EXPECT_NO_THROW(require_healthy(e.report));
@@ -312,7 +315,8 @@ TEST(Doctor, ImpossibleNumbersAreRefusedWithTheirPlace)
 
 TEST(Doctor, RepeatedCornersShortenAFaceOrRemoveIt)
 {
-    // A triangle written as a quad, an edge written as a triangle, and a face that goes through a vertex twice.
+    // A triangle written as a quad, an edge written as a triangle, and a face that goes through a
+    // vertex twice.
     PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 2}, {0, 2, 3}, {0, 2, 0}});
     const Examination e = examine(soup);
     EXPECT_EQ(count(e, Fault::repeated_corner), 2);
@@ -325,7 +329,8 @@ TEST(Doctor, RepeatedCornersShortenAFaceOrRemoveIt)
 
 TEST(Doctor, NeedleWithTwoVerticesAtOnePlaceIsClosed)
 {
-    // The row of vertices x = 1 of a 2 x 2 rectangle is doubled at its middle; two needles fill the slit.
+    // The row of vertices x = 1 of a 2 x 2 rectangle is doubled at its middle; two needles fill the
+    // slit.
     const Examination e = examine(soup_of(
         {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}, {1, 1, 0}},
         {{0, 1, 4, 3}, {3, 4, 7, 6}, {1, 2, 5, 9}, {9, 5, 8, 7}, {1, 9, 4}, {4, 9, 7}}));
@@ -340,7 +345,8 @@ TEST(Doctor, NeedleWithTwoVerticesAtOnePlaceIsClosed)
 
 TEST(Doctor, CapIsTurnedIntoItsNeighbourAndABoundaryCapIsLeftOut)
 {
-    // (1, 0) lies on the edge (0, 0) - (2, 0) between a lower and an upper triangle fan; triangle 0 is the cap.
+    // (1, 0) lies on the edge (0, 0) - (2, 0) between a lower and an upper triangle fan; triangle 0
+    // is the cap.
     const std::vector<Vector3d> points = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 2, 0}, {1, -2, 0}};
     const Examination inner = examine(soup_of(points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {0, 4, 1}}));
     EXPECT_EQ(count(inner, Fault::flat_face), 1);
@@ -383,10 +389,12 @@ TEST(Doctor, TornFacetsAreWeldedInTheOrderOfTheirFirstCorners)
 
 TEST(Doctor, GapsOfRoundingAreWeldedAndShortRealEdgesAreKept)
 {
-    // All corners are off at random; one real edge is shorter than the tolerance of 5.7e-3 but longer than the errors.
+    // All corners are off at random; one real edge is shorter than the tolerance of 5.7e-3 but
+    // longer than the errors.
     const double real_edge = 2e-3;
     PolygonSoup whole = quads(4, 4);
-    whole.position[12].x() -= 1 - real_edge; // the middle vertex comes next to its left neighbour 11
+    whole.position[12].x() -= 1 - real_edge; // the middle vertex comes next to its left neighbour
+                                             // 11
     PolygonSoup soup = torn(whole);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> noise(-1e-4, 1e-4);
@@ -404,7 +412,8 @@ TEST(Doctor, SliversAreNotedOnly)
     const Examination e =
         examine(soup_of({{0, 0, 0}, {10, 0, 0}, {5, 0.05, 0}, {5, 5, 0}}, {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}}));
     EXPECT_EQ(count(e, Fault::sliver), 1);
-    EXPECT_NE(e.report.find(Fault::sliver)->text.find("0.573 degrees"), std::string::npos) // atan(0.05 / 5)
+    // atan(0.05 / 5)
+    EXPECT_NE(e.report.find(Fault::sliver)->text.find("0.573 degrees"), std::string::npos)
         << e.report.find(Fault::sliver)->text;
     EXPECT_NO_THROW(require_healthy(e.report));
 }

@@ -14,7 +14,8 @@ namespace spia {
 
 namespace {
 
-/// A square plate of n x n cells without the cells for which `hole` holds, lifted to z = height(x, y).
+/// A square plate of n x n cells without the cells for which `hole` holds, lifted to z = height(x,
+/// y).
 template <class Hole, class Height> TriMesh plate(int n, const Hole& hole, const Height& height)
 {
     TriMesh full = shapes::rectangle(2, 2, n, n), part;
@@ -56,7 +57,8 @@ TEST(FillHoles, APlatePartStaysAPlaneAndKeepsItsVertices)
                 return two_holes ? std::abs(std::abs(x) - 0.5) < 0.25 && std::abs(y) < 0.6 : round_hole(x, y);
             },
             flat);
-        part.position.row(2) = 0.3 * part.position.row(0) - 0.7 * part.position.row(1); // in space the plane is tilted
+        // in space the plane is tilted
+        part.position.row(2) = 0.3 * part.position.row(0) - 0.7 * part.position.row(1);
         const FilledMesh filled = fill_holes(part, part.position.topRows(2));
         EXPECT_EQ(filled.holes, two_holes ? 2 : 1);
         EXPECT_EQ(filled.fanned_holes, 0);
@@ -74,8 +76,8 @@ TEST(FillHoles, APlatePartStaysAPlaneAndKeepsItsVertices)
 
 TEST(FillHoles, TheFillContinuesACurvedPart)
 {
-    // z = x^2 - y^2 + x^3 / 3 - x y^2 is harmonic, so the smooth fill of its hole is the surface itself, up to the mesh
-    // size.
+    // z = x^2 - y^2 + x^3 / 3 - x y^2 is harmonic, so the smooth fill of its hole is the surface
+    // itself, up to the mesh size.
     const auto height = [](double x, double y) { return x * x - y * y + x * x * x / 3 - x * y * y; };
     std::vector<double> error;
     for (const int n : {20, 40}) {
@@ -89,7 +91,8 @@ TEST(FillHoles, TheFillContinuesACurvedPart)
         error.push_back(worst);
     }
     EXPECT_LT(error[0], 0.01);           // the hole is 1 wide and the surface rises by 0.25 in it
-    EXPECT_LT(error[1], 0.7 * error[0]); // not order 2: the fill is coarse in the middle whatever the part
+    EXPECT_LT(error[1], 0.7 * error[0]); // not order 2: the fill is coarse in the middle whatever
+                                         // the part
 }
 
 TEST(FillHoles, AHoleWhoseEdgeCrossesItselfIsClosedByAFan)
@@ -97,7 +100,8 @@ TEST(FillHoles, AHoleWhoseEdgeCrossesItselfIsClosedByAFan)
     TriMesh part = plate(
         10, [](double x, double y) { return std::abs(x) < 0.2 && std::abs(y) < 0.6; }, flat);
     Eigen::Matrix2Xd plane = part.position.topRows(2);
-    for (int v = 0; v < part.vertices(); ++v) // the two long edges of the hole change places, the blank overlaps there
+    for (int v = 0; v < part.vertices(); ++v) // the two long edges of the hole change places, the
+                                              // blank overlaps there
         if (std::abs(plane(0, v)) < 0.3 && std::abs(plane(1, v)) < 0.5)
             plane(0, v) *= -1;
     const FilledMesh filled = fill_holes(part, plane);
@@ -128,7 +132,8 @@ TEST(FillHoles, WhatIsNoDiskIsNamed)
     two.position.rightCols(9) = plate_part.position.colwise() + Eigen::Vector3d(5, 0, 0);
     two.triangle.conservativeResize(3, 16);
     two.triangle.rightCols(8) = plate_part.triangle.array() + 9;
-    // The second piece's edge runs counter-clockwise too and cannot be filled; either complaint would help the user.
+    // The second piece's edge runs counter-clockwise too and cannot be filled; either complaint
+    // would help the user.
     EXPECT_THROW(fill_holes(two, two.position.topRows(2)), InputError);
     TriMesh mirrored = plate_part;
     mirrored.position.row(0) *= -1;

@@ -67,10 +67,12 @@ TEST(Outline, LoopsThatOverlapCrossEachOther)
 
 TEST(Outline, ACornerOnAnEdgeTouchesAndOneBeyondItCrosses)
 {
-    // A corner of the second loop lies on an edge of the first one, up to one unit in the last place.
+    // A corner of the second loop lies on an edge of the first one, up to one unit in the last
+    // place.
     Eigen::Matrix2Xd points(2, 6);
     points << 0, 0.3, 0, /**/ 0.1, 1, 1, /**/ 0, 0.9, 0.9, /**/ 0.3, 0.3, 0.4;
-    const double on = points(1, 3); // 0.1 * 3 is not 0.3: the line through 0 and (0.3, 0.9) passes beside (0.1, 0.3)
+    const double on = points(1, 3); // 0.1 * 3 is not 0.3: the line through 0 and (0.3, 0.9) passes
+                                    // beside (0.1, 0.3)
     ASSERT_EQ(on, 0.3);
     const auto found = outline_crossings({{0, 1, 2}, {3, 4, 5}}, points);
     const int side = orient2d(points.col(0), points.col(1), points.col(3));
@@ -92,7 +94,8 @@ TEST(Outline, ACornerOnAnEdgeTouchesAndOneBeyondItCrosses)
 
 namespace {
 
-/// Two squares of one corner in common, the second one turned about it by so many right angles; each has its own vertices.
+/// Two squares of one corner in common, the second one turned about it by so many right angles;
+/// each has its own vertices.
 int crossings_of_squares(int quarters)
 {
     Eigen::Matrix2Xd points(2, 8);
@@ -115,7 +118,8 @@ TEST(Outline, SquaresThatMeetInACornerOrAlongASideTouch)
 
 TEST(Outline, WaysThroughOnePlaceCrossIfTheyChangeSides)
 {
-    // The tips of two triangles at the origin: one points up, the other down, or one stands in the other.
+    // The tips of two triangles at the origin: one points up, the other down, or one stands in the
+    // other.
     Eigen::Matrix2Xd points(2, 6);
     points << 0, -1, 1, /**/ 0, 1, -1, /**/ 0, -1, -1, /**/ 0, 1, 1;
     EXPECT_EQ(crossings({{0, 1, 2}, {3, 4, 5}}, points), 0);
@@ -137,14 +141,16 @@ TEST(Outline, AnEdgeThatGoesBackOnItsNeighbourCounts)
 
 namespace {
 
-/// A flat fan of triangles around vertex 0, each of the given angle; closed if the last spoke is the first.
+/// A flat fan of triangles around vertex 0, each of the given angle; closed if the last spoke is
+/// the first.
 std::pair<TriMesh, Eigen::Matrix2Xd> fan(int triangles, double angle, bool closed)
 {
     TriMesh mesh;
     const int spokes = closed ? triangles : triangles + 1;
     mesh.position = Eigen::Matrix3Xd::Zero(3, spokes + 1);
     mesh.triangle.resize(3, triangles);
-    for (int i = 0; i < spokes; ++i) // the radius grows, so that an open fan may wind without touching itself
+    for (int i = 0; i < spokes; ++i) // the radius grows, so that an open fan may wind without
+                                     // touching itself
         mesh.position.col(i + 1) << (1 + 0.1 * i) * std::cos(angle * i), (1 + 0.1 * i) * std::sin(angle * i), 0;
     for (int i = 0; i < triangles; ++i)
         mesh.triangle.col(i) << 0, i + 1, (i + 1) % spokes + 1;
@@ -162,13 +168,15 @@ TEST(OverlapOf, AFanIsFoundWhereItGoesAroundTwice)
     EXPECT_EQ(overlap(twice, flat_twice).wound, std::vector{0});
     const auto [nearly, flat_nearly] = fan(11, 2 * pi / 11.5, false);
     EXPECT_TRUE(overlap(nearly, flat_nearly).none());
-    const auto [more, flat_more] = fan(12, 2 * pi / 11.5, false); // on the boundary: a winding stair
+    // on the boundary: a winding stair
+    const auto [more, flat_more] = fan(12, 2 * pi / 11.5, false);
     EXPECT_EQ(overlap(more, flat_more).wound, std::vector{0});
 }
 
 TEST(OverlapOf, ASpiralStripIsFoundByItsOutline)
 {
-    // A strip that turns by 500 degrees in the plane: no vertex is gone around twice, the outline crosses itself.
+    // A strip that turns by 500 degrees in the plane: no vertex is gone around twice, the outline
+    // crosses itself.
     const auto strip = [](double turn) {
         TriMesh mesh = shapes::rectangle(1, 1, 60, 2);
         for (auto x : mesh.position.colwise()) {
@@ -189,8 +197,8 @@ TEST(OverlapOf, ASpiralStripIsFoundByItsOutline)
     }
 }
 
-/// A sheet with a slit that runs in from its left side, turns up and ends: cells of the tongue have vertices of their own along it,
-/// at other places than those opposite to them.
+/// A sheet with a slit that runs in from its left side, turns up and ends: cells of the tongue have
+/// vertices of their own along it, at other places than those opposite to them.
 struct SlitSheet {
     TriMesh mesh;
     std::vector<int> lip; ///< vertices of the tongue along the slit

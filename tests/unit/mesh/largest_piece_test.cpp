@@ -6,7 +6,8 @@
 namespace spia {
 namespace {
 
-/// Adds columns x rows quads of unit length spanned from a place; corners at equal places are one vertex.
+/// Adds columns x rows quads of unit length spanned from a place; corners at equal places are one
+/// vertex.
 void add_sheet(PolygonSoup& soup, const Eigen::Vector3d& from, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                int columns, int rows)
 {

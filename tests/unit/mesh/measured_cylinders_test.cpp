@@ -66,7 +66,8 @@ TEST(MeasuredCylinders, AreNotFoundInDrawnSheet)
     int wall = 0;
     for (int v = 0; v < cup.vertices(); ++v)
         if (const double r = cup.position.col(v).head<2>().norm(); std::abs(r - shape.radius) < 1e-6) {
-            inwards.col(v) << -cup.position.col(v).head<2>() / r, 0; // on a cylinder to the last digit, as in CAD
+            // on a cylinder to the last digit, as in CAD
+            inwards.col(v) << -cup.position.col(v).head<2>() / r, 0;
             ++wall;
         }
     ASSERT_GT(wall, 100);
@@ -76,7 +77,8 @@ TEST(MeasuredCylinders, AreNotFoundInDrawnSheet)
 
 TEST(MeasuredCylinders, AreNotFoundInSheetThatIsFoldedSharply)
 {
-    // Flats around a circle, between two legs that say how thick it is: mitred, the inner corners lie on a circle as well.
+    // Flats around a circle, between two legs that say how thick it is: mitred, the inner corners
+    // lie on a circle as well.
     for (const double fold : {8., 15., 30.}) {
         const double a = fold * pi / 180, t = 1, flat = 15;
         std::vector<Eigen::Vector2d> line{{0, 0}, {200, 0}};

@@ -10,7 +10,8 @@ namespace {
 
 using Wide = __int128;
 
-/// The sign of the determinant of whole-numbered coordinates below 2^60, in 128 bits: nothing is rounded.
+/// The sign of the determinant of whole-numbered coordinates below 2^60, in 128 bits: nothing is
+/// rounded.
 int whole_sign(const std::array<long, 6>& p)
 {
     const Wide det = (Wide(p[0]) - p[4]) * (Wide(p[3]) - p[5]) - (Wide(p[1]) - p[5]) * (Wide(p[2]) - p[4]);
@@ -46,7 +47,8 @@ TEST(Orient2d, IsLeftRightAndOnTheLine)
 
 TEST(Orient2d, OfWholeNumbersIsTheSignIn128Bits)
 {
-    // Points on and beside a line of 52 bits: the determinant is a few units among products of 104 bits.
+    // Points on and beside a line of 52 bits: the determinant is a few units among products of 104
+    // bits.
     std::mt19937_64 random(7);
     int corrected = 0;
     for (int i = 0; i < 200000; ++i) {
@@ -69,8 +71,9 @@ TEST(Orient2d, OfWholeNumbersIsTheSignIn128Bits)
 
 TEST(Orient2d, OfNeighbouringDoublesIsTheOneOfTheirIntegers)
 {
-    // The example of Kettner et al. (Classroom examples of robustness problems in geometric computations, 2008): points one unit
-    // in the last place apart around (0.5, 0.5), against a line from (12, 12) to (24, 24). Times 2^53 all are whole.
+    // The example of Kettner et al. (Classroom examples of robustness problems in geometric
+    // computations, 2008): points one unit in the last place apart around (0.5, 0.5), against a
+    // line from (12, 12) to (24, 24). Times 2^53 all are whole.
     int corrected = 0;
     for (int i = 0; i < 256; ++i)
         for (int j = 0; j < 256; ++j) {
@@ -85,7 +88,8 @@ TEST(Orient2d, OfNeighbouringDoublesIsTheOneOfTheirIntegers)
 
 TEST(Orient2d, OfOrdersOfMagnitudeApartIsExact)
 {
-    // (1, 1) against the line through (0, 0) and (1 + e, 1): only the last bit decides, at any scale of the point a.
+    // (1, 1) against the line through (0, 0) and (1 + e, 1): only the last bit decides, at any
+    // scale of the point a.
     const double e = std::numeric_limits<double>::epsilon();
     EXPECT_EQ(orient2d({0, 0}, {1 + e, 1}, {1, 1}), 1);
     EXPECT_EQ(orient2d({0, 0}, {1, 1 + e}, {1, 1}), -1);

@@ -58,7 +58,8 @@ Eigen::Vector3d place(const TriMesh& mesh, const RayHit& hit)
 TEST(RayPicker, MeetsFirstWhatTryingAllFacesMeetsFirst)
 {
     std::mt19937 random(7);
-    for (const double size : {5., 30., 150.}) { // from grains far from each other to triangles all through each other
+    for (const double size : {5., 30., 150.}) { // from grains far from each other to triangles all
+                                                // through each other
         const TriMesh mesh = soup(random, 500, size);
         const RayPicker picker(mesh);
         int met = 0;
@@ -87,7 +88,8 @@ TEST(RayPicker, MeetsFirstWhatTryingAllFacesMeetsFirst)
 
 TEST(RayPicker, NoRaySlipsThroughBetweenTwoFaces)
 {
-    // Rays at every vertex and every middle of an edge of a tilted plate, where rounding decides for one face or another.
+    // Rays at every vertex and every middle of an edge of a tilted plate, where rounding decides
+    // for one face or another.
     for (const std::uint64_t seed : {0, 1, 2, 3}) {
         const Eigen::Matrix3d turn = seed == 0 ? Eigen::Matrix3d::Identity() : shapes::random_rotation(seed);
         const TriMesh plate = shapes::transformed(shapes::rectangle(17, 13, 12, 9), turn, {0.1, 0.2, 0.3});
@@ -111,7 +113,8 @@ TEST(RayPicker, NoRaySlipsThroughBetweenTwoFaces)
 
 TEST(RayPicker, RaysAlongTheAxesMeetPlatesThatLieOnBoxesSides)
 {
-    // Straight down onto a grid: boxes without height, rays along their sides. Everything is exact here.
+    // Straight down onto a grid: boxes without height, rays along their sides. Everything is exact
+    // here.
     const TriMesh plate = shapes::rectangle(8, 8, 8, 8);
     const RayPicker picker(plate);
     for (int v = 0; v < plate.vertices(); ++v)

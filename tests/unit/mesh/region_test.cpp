@@ -154,7 +154,8 @@ TEST(Region, SmoothPiecesOfAHatProfileAreItsFlatsAndItsBends)
     for (const int triangles : {12000, 40000}) {
         const shapes::HatChannel shape{.triangles = triangles};
         const shapes::DevelopablePart part = shapes::hat_channel(shape);
-        // Across the flat sheet: flange, bend, wall, bend, top, bend, wall, bend, flange; a bend is as wide as its chords.
+        // Across the flat sheet: flange, bend, wall, bend, top, bend, wall, bend, flange; a bend is
+        // as wide as its chords.
         const Eigen::Vector2d least = part.flat.rowwise().minCoeff(), extent = part.flat.rowwise().maxCoeff() - least;
         Eigen::Index across = 0; // the axis of `flat` with the profile
         (extent.array() - shape.length).abs().maxCoeff(&across);
@@ -182,7 +183,8 @@ TEST(Region, SmoothPiecesOfAHatProfileAreItsFlatsAndItsBends)
 
 TEST(Region, AGentlyCurvedPieceEndsWhereABendBeginsAtAnySize)
 {
-    // Along the profile: an arc of radius 150, a quarter of radius 8, an arc of radius 150 again, all tangent.
+    // Along the profile: an arc of radius 150, a quarter of radius 8, an arc of radius 150 again,
+    // all tangent.
     const std::vector<double> radius = {150, 8, 150}, width = {100, 8 * std::numbers::pi / 2, 60};
     const std::vector<int> cells = {60, 6, 36};
     std::vector<Eigen::Vector2d> profile = {{0, 0}};

@@ -18,13 +18,17 @@ TEST(SplitPolygon, QuadTakesItsShorterDiagonalUnlessThatFoldsItOver)
     const std::vector<Vector3d> kite = {{0, 0, 0}, {2, 1, 0}, {6, 0, 0}, {2, -1, 0}};
     for (const auto& t : split_polygon(kite)) // diagonal 1 - 3
         EXPECT_EQ(std::count(t.begin(), t.end(), 1) + std::count(t.begin(), t.end(), 3), 2);
-    const std::vector<Vector3d> dart = {
-        {0, 0, 0}, {4, 1, 0}, {3, 0, 0}, {4, -1, 0}}; // 1 - 3 is shorter, but only 0 - 2 lies inside
+    const std::vector<Vector3d> dart = {{0, 0, 0},
+                                        {4, 1, 0},
+                                        {3, 0, 0},
+                                        {4, -1, 0}}; // 1 - 3 is shorter, but only 0 - 2 lies
+                                                     // inside
     ASSERT_EQ(split_polygon(dart).size(), 2u);
     for (const auto& t : split_polygon(dart))
         EXPECT_EQ(std::count(t.begin(), t.end(), 0) + std::count(t.begin(), t.end(), 2), 2);
     EXPECT_TRUE(
-        split_polygon(std::vector<Vector3d>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).empty()); // crosses itself
+        // crosses itself
+        split_polygon(std::vector<Vector3d>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).empty());
 }
 
 TEST(SplitPolygon, TrianglesOfAnyStarFillItOnceInAnyAttitude)

@@ -129,7 +129,8 @@ TEST(ThinSolid, MiddleSurfaceLiesHalfwayEverywhere)
                                             .norm());
             EXPECT_LT(worst, 1e-6 * thickness);
             EXPECT_NEAR(area(middle.mesh), area(expected), 1e-6 * area(expected));
-            // Exact where flat; the chords of a bend lie nearer to each other than its arcs, by 1 - cos of half their angle.
+            // Exact where flat; the chords of a bend lie nearer to each other than its arcs, by 1 -
+            // cos of half their angle.
             EXPECT_NEAR(found.volume / thickness, area(middle.mesh), 5e-3 * area(middle.mesh));
         }
 }
@@ -148,7 +149,8 @@ TEST(ThinSolid, MiddleSurfaceEndsHalfwayOnSlantedEdges)
 {
     const TriMesh plate = shapes::rectangle(60, 40, 20, 14);
     Eigen::Matrix3Xd inwards(3, plate.vertices());
-    for (int v = 0; v < plate.vertices(); ++v) // its outline widens by 0.3 of the thickness downwards
+    for (int v = 0; v < plate.vertices(); ++v) // its outline widens by 0.3 of the thickness
+                                               // downwards
         inwards.col(v) << 0.6 * (plate.position(0, v) / 60 - 0.5), 0.6 * (plate.position(1, v) / 40 - 0.5), -1;
     const TriMesh solid = shapes::thickened(plate, inwards);
     const ThinSolid found = thin_solid(solid);
@@ -189,14 +191,16 @@ TEST(ThinSolid, TakesTheFacesOfNarrowBridgesAndChamfersForRim)
         for (int i = 0; i < solid.triangles(); ++i)
             ASSERT_EQ(found.side[size_t(i)] == SheetSide::rim, i >= 2 * f) << i << " of " << f;
     };
-    // Two holes as far apart as the sheet is thick: the faces between lie opposite at its thickness.
+    // Two holes as far apart as the sheet is thick: the faces between lie opposite at its
+    // thickness.
     const BentSheet plate =
         shapes::without(shapes::bent_sheet(Profile({0, 0}, 0).straight(40), 30, 1), [](const Eigen::Vector3d& p) {
             return std::abs(p.y() - 15) < 5 && ((p.x() > 10 && p.x() < 20) || (p.x() > 21 && p.x() < 31));
         });
     expect_sides(plate.mesh, solid_of(plate, 1));
 
-    // A plate whose upper edges are chamfered by 0.3 mm: the upper skin moves in, the chamfer comes between.
+    // A plate whose upper edges are chamfered by 0.3 mm: the upper skin moves in, the chamfer comes
+    // between.
     const TriMesh top = shapes::rectangle(40, 30, 20, 15);
     Eigen::Matrix3Xd to_chamfer = Eigen::Matrix3Xd::Zero(3, top.vertices());
     for (int v = 0; v < top.vertices(); ++v) {
@@ -207,7 +211,8 @@ TEST(ThinSolid, TakesTheFacesOfNarrowBridgesAndChamfersForRim)
     wide.position += to_chamfer;
     Eigen::Matrix3Xd down = Eigen::Matrix3Xd::Zero(3, top.vertices());
     down.row(2).setConstant(-1.2);
-    TriMesh solid = shapes::thickened(wide, down); // 1.2 mm thick; its top is lifted to 1.5 mm, and narrowed
+    TriMesh solid = shapes::thickened(wide, down); // 1.2 mm thick; its top is lifted to 1.5 mm, and
+                                                   // narrowed
     const int v = top.vertices(), f = top.triangles(), rim = solid.triangles() - 2 * f;
     TriMesh chamfered = solid;
     chamfered.position.conservativeResize(3, 3 * v);
@@ -215,7 +220,8 @@ TEST(ThinSolid, TakesTheFacesOfNarrowBridgesAndChamfersForRim)
     chamfered.position.rightCols(v).row(2).array() += 0.3;
     chamfered.triangle.conservativeResize(3, solid.triangles() + rim);
     chamfered.triangle.leftCols(f).array() += 2 * v;
-    const TriMesh collar = shapes::thickened(top, to_chamfer); // the same edges, from the top to the wide outline
+    // the same edges, from the top to the wide outline
+    const TriMesh collar = shapes::thickened(top, to_chamfer);
     for (int i = 0; i < rim; ++i)
         for (int k = 0; k < 3; ++k) {
             const int at = collar.triangle(k, 2 * f + i);

@@ -16,8 +16,8 @@ StatedSurface cylinder(double x, double y, double radius)
     return surface;
 }
 
-/// A triangle on each arc of a right-angled bend of sheet 2 mm thick, inner radius 3: both arcs touch
-/// the legs, wherever their axes are.
+/// A triangle on each arc of a right-angled bend of sheet 2 mm thick, inner radius 3: both arcs
+/// touch the legs, wherever their axes are.
 std::vector<UnevenBend> bends_with(double outer)
 {
     ThinSolid sheet;

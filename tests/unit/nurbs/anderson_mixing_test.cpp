@@ -8,7 +8,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// x -> rate x + (1 - rate) x*, per component, coupled by a reflection so that no coordinate stands alone.
+/// x -> rate x + (1 - rate) x*, per component, coupled by a reflection so that no coordinate stands
+/// alone.
 struct Creeping {
     VectorXd rate{{0.999, 0.99, 0.9, -0.5, 0.3}}, fixed_point{{1, -2, 3, 5, 8}};
     VectorXd direction = VectorXd::Ones(5) / std::sqrt(5.);

@@ -78,7 +78,8 @@ TEST(BlankChart, GivesTheNodesOfItsGridAndABorderOnTheOutline)
 
 TEST(BlankChart, LinesNextToTheBorderFollowTheOutlineBetweenTheNodes)
 {
-    // Eight nodes a side are too few for the waves: the map through them alone would leave the outline by a millimetre.
+    // Eight nodes a side are too few for the waves: the map through them alone would leave the
+    // outline by a millimetre.
     const Waves sheet(1.5, 0.05);
     GridOptions options;
     options.columns = options.rows = 8;
@@ -96,7 +97,8 @@ TEST(BlankChart, LinesNextToTheBorderFollowTheOutlineBetweenTheNodes)
 
 TEST(BlankChart, IsSmoothAcrossTheCellsOfItsGrid)
 {
-    // Second differences of the finer lines across a node of the grid are like those beside it: bilinear cells would kink.
+    // Second differences of the finer lines across a node of the grid are like those beside it:
+    // bilinear cells would kink.
     const Waves sheet(1.5);
     GridOptions options;
     options.columns = options.rows = 16;

@@ -36,7 +36,8 @@ struct AtData {
 
 TEST(CorrectParameters, ComesCloserOnThePartAndDoesNotLeanOver)
 {
-    for (const size_t which : {2u, 4u}) { // the torus piece, and the bump, at which most parameters want to be
+    for (const size_t which : {2u, 4u}) { // the torus piece, and the bump, at which most parameters
+                                          // want to be
         const shapes::KnownSheet sheet = shapes::known_sheets()[which];
         const shapes::MeshedSheet meshed(sheet, 120);
         const FootPointProjection projection(meshed.mesh);

@@ -14,8 +14,8 @@ namespace spia {
 
 namespace {
 
-/// A mesh inscribed in a sphere about the origin, up to `reach` (radians) left, right, below and above the x
-/// axis.
+/// A mesh inscribed in a sphere about the origin, up to `reach` (radians) left, right, below and
+/// above the x axis.
 TriMesh inscribed(double radius, double reach, int cells)
 {
     TriMesh mesh = shapes::rectangle(2 * reach, 2 * reach, cells, cells);
@@ -41,7 +41,8 @@ TEST(Deviation, MeshInscribedInASphereAgainstALargerSphere)
 {
     const double radius = 50, offset = 0.4;
     const NurbsSurface surface = surfaces::sphere_patch(radius + offset);
-    const TriMesh mesh = inscribed(radius, 0.7, 24); // the feet of all its places are inside the patch
+    const TriMesh mesh = inscribed(radius, 0.7, 24); // the feet of all its places are inside the
+                                                     // patch
     const Deviation d = deviation(surface, mesh);
 
     // The distance of a place of the mesh is radius + offset less its own distance from the centre.
@@ -71,7 +72,8 @@ TEST(Deviation, LargerSphereAgainstAMeshInscribedInASphere)
     const double reach = 0.95; // corners of the patch project inside of the mesh
     const Deviation d =
         deviation(surfaces::sphere_patch(radius + offset), inscribed(radius, reach, cells), {.samples_per_span = 16});
-    const double half_diagonal = radius * reach / cells * std::sqrt(2.); // of a cell: no place is farther from a vertex
+    // of a cell: no place is farther from a vertex
+    const double half_diagonal = radius * reach / cells * std::sqrt(2.);
     const double sag = half_diagonal * half_diagonal / (2 * radius);
     EXPECT_EQ(d.surface_to_mesh.samples, 17 * 17);
     EXPECT_GE(d.surface_to_mesh.max, offset);
@@ -83,8 +85,8 @@ TEST(Deviation, LargerSphereAgainstAMeshInscribedInASphere)
 
 TEST(Deviation, StatisticsWeighTheAreaAndNotTheSamples)
 {
-    // A plane 1 mm below the surface on the left tenth, where the mesh is 20 times as fine, and 3 mm on the
-    // rest.
+    // A plane 1 mm below the surface on the left tenth, where the mesh is 20 times as fine, and 3
+    // mm on the rest.
     TriMesh fine = shapes::rectangle(10, 100, 20, 100), mesh = shapes::rectangle(90, 100, 9, 5);
     fine.position.row(2).setConstant(-1);
     mesh.position.row(2).setConstant(-3);
@@ -139,7 +141,8 @@ TEST(Deviation, ErrorBetweenTheDataIsSeenThere)
 
 TEST(Deviation, FilledHoleIsNoDeviation)
 {
-    // The part is flat, its hole [30, 60] x [30, 60] was filled by a bulge the surface knows nothing of.
+    // The part is flat, its hole [30, 60] x [30, 60] was filled by a bulge the surface knows
+    // nothing of.
     TriMesh whole = shapes::rectangle(100, 100, 50, 50), filled = whole;
     int part_faces = 0;
     const auto in_hole = [&](int f) {
@@ -225,7 +228,8 @@ TEST(Deviation, CancelledWhenItsOwnerAsksForIt)
 
 TEST(Deviation, NormalsAreComparedWhicheverWayTheSurfaceLooks)
 {
-    // A plane against a roof of two planes at 0.1 and 0.5 radians to it, their ridge sharp, each of half the width.
+    // A plane against a roof of two planes at 0.1 and 0.5 radians to it, their ridge sharp, each of
+    // half the width.
     const double gentle = 0.1, steep = 0.5;
     TriMesh mesh = shapes::rectangle(100, 100, 20, 20);
     for (int v = 0; v < mesh.vertices(); ++v) {
@@ -252,7 +256,8 @@ TEST(Deviation, NormalsAreComparedWhicheverWayTheSurfaceLooks)
 
 TEST(Deviation, FacesWithASharpEdgeAreLeftOutOfTheGreatestSmoothAngle)
 {
-    // A ridge of two columns of cells across a flat sheet, with sharp edges at its top and feet, under a plane.
+    // A ridge of two columns of cells across a flat sheet, with sharp edges at its top and feet,
+    // under a plane.
     TriMesh mesh = shapes::rectangle(100, 100, 20, 20);
     for (int v = 0; v < mesh.vertices(); ++v)
         if (std::abs(mesh.position(0, v) - 50) < 1e-9)

@@ -70,7 +70,8 @@ TEST(EquidistributedSpans, OfASurfaceThatChangesAlikeEverywhereAreAlike)
 
 TEST(EquidistributedSpans, AKnotIsNoticedByTheStepOfItsHighestDerivative)
 {
-    const auto kinks = [](double x) { // cubics, with steps of 6 and of 0.6 in their third derivative
+    const auto kinks = [](double x) { // cubics, with steps of 6 and of 0.6 in their third
+                                      // derivative
         return std::pow(std::max(0., x - 0.5), 3) - 0.1 * std::pow(std::max(0., x - 0.75), 3);
     };
     const std::vector<double> significance = knot_significance(ridge({0, 0.25, 0.5, 0.75, 0.875, 1}, kinks), true);

@@ -136,7 +136,8 @@ TEST(FitPatch, NeighboursThatShareACurveHaveTheSameBorderBitForBit)
     const Eigen::Matrix3Xd left = points_at(u, v, 0, 0.4), right = points_at(u, v, 0.4, 1);
     PatchBorders of_left = fit_borders(left, along_u, along_v), of_right = fit_borders(right, along_u, along_v);
     const CurveSource middle = [](const std::vector<double>& t) { return points_at({0.4}, t, 0, 1); };
-    // The shared curve is someone else's: it is kept though the data next to it would have it otherwise.
+    // The shared curve is someone else's: it is kept though the data next to it would have it
+    // otherwise.
     Eigen::Matrix3Xd shared = curve_over(even(8), middle, {}).control;
     shared.row(2).segment(3, 4).array() += 0.3;
     of_left[1] = of_right[3] = shared;
@@ -168,7 +169,8 @@ TEST(FitPatch, IsTheLeastSquaresSurfaceAmongThoseWithItsBorder)
     };
     const auto squares = [&](const NurbsSurface& s) {
         double sum = 0;
-        // Of the border rows' points only the border curves know: inside the domain every point has its weight.
+        // Of the border rows' points only the border curves know: inside the domain every point has
+        // its weight.
         for (size_t j = 1; j + 1 < v.size(); ++j)
             for (size_t i = 1; i + 1 < u.size(); ++i)
                 sum += share(u, i) * share(v, j) *

@@ -140,7 +140,8 @@ TEST(Fit, StepAndRidgeDoNotRing)
     EXPECT_GE(range.least, -1.02 * tolerance); // between the samples
     EXPECT_LE(range.most, 10 + 1.02 * tolerance);
 
-    // Too few control points: the step stays blurred, yet it overshoots by no more than the least squares spline of a jump (12 %).
+    // Too few control points: the step stays blurred, yet it overshoots by no more than the least
+    // squares spline of a jump (12 %).
     FitOptions poor = within(tolerance);
     poor.max_control_points = 64;
     const FitResult coarse = fit(stepped.source, stepped.mesh, poor);
@@ -163,7 +164,8 @@ TEST(Fit, SharpEdgeThatKeepsItAwayIsNamed)
     EXPECT_FALSE(result.report.reached);
     const FitShortfall& shortfall = result.report.shortfall;
     ASSERT_EQ(shortfall.reason, FitShortfall::Reason::sharp_edge) << shortfall.text;
-    // Triangles cut across the ridge: the named edge is near it, and turns by about a right angle at most.
+    // Triangles cut across the ridge: the named edge is near it, and turns by about a right angle
+    // at most.
     for (const int vertex : {shortfall.a, shortfall.b}) {
         ASSERT_GE(vertex, 0);
         EXPECT_LT(std::abs(meshed.mesh.position.col(vertex).x()), 3);
@@ -235,8 +237,8 @@ TEST(Fit, CorrectedParametersNeedFewerKnotsWhereTheParametersRunUnevenly)
     EXPECT_LE(independent_deviation(corrected.surface, jerky), options.tolerance + chord);
 }
 
-/// OpenCASCADE's GeomAPI_PointsToBSplineSurface, which chooses its parameters, too, needs 20 and 90 within the same distances
-/// (tests/bench/README.md).
+/// OpenCASCADE's GeomAPI_PointsToBSplineSurface, which chooses its parameters, too, needs 20 and 90
+/// within the same distances (tests/bench/README.md).
 TEST(Fit, CorrectedParametersNeedNoMoreControlPointsThanOpenCascade)
 {
     struct Known {

@@ -16,8 +16,8 @@ namespace {
 using Ends = InterpolateOptions::Ends;
 using Kind = InterpolateOptions::Parameters;
 
-/// A stamped sheet of 400 x 300 mm with a bulge and a twist, its nodes unevenly spaced; second derivatives do
-/// not vanish along the border.
+/// A stamped sheet of 400 x 300 mm with a bulge and a twist, its nodes unevenly spaced; second
+/// derivatives do not vanish along the border.
 double height(double x, double y) { return 40 * std::exp(-x / 250) * std::cos(y / 70 + 0.3) + 1e-3 * x * y; }
 
 Eigen::Vector3d sheet(double s, double t)
@@ -26,8 +26,8 @@ Eigen::Vector3d sheet(double s, double t)
     return {x, y, height(x, y)};
 }
 
-/// Distance of the surface from the sheet along z, which does not depend on the parameters; how much of it at
-/// the border.
+/// Distance of the surface from the sheet along z, which does not depend on the parameters; how
+/// much of it at the border.
 struct SheetError {
     double anywhere = 0, border = 0;
 };

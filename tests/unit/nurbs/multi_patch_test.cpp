@@ -86,7 +86,8 @@ TEST(MultiPatch, InterfacesAreFoundAndMeetAtEveryPlace)
                                       b = on(joint.second.side, joint.reversed ? 1 - t : t);
                 const Eigen::Vector3d x = evaluate(found.patch[size_t(joint.first.patch)], a.x(), a.y()).position,
                                       y = evaluate(found.patch[size_t(joint.second.patch)], b.x(), b.y()).position;
-                // The same numbers, summed in another order where the parameters run against each other.
+                // The same numbers, summed in another order where the parameters run against each
+                // other.
                 ASSERT_LE((x - y).norm(), 1e-12 * 400) << t;
             }
     }

@@ -97,11 +97,13 @@ TEST(PatchField, OfAHeightThatIsInterpolatedIsTheHeightOfTheSurface)
 
 TEST(PatchField, MeanIsOverTheArea)
 {
-    // z over a quarter of a cylinder of radius r: mean height 2 r / pi, though the parameters are uneven.
+    // z over a quarter of a cylinder of radius r: mean height 2 r / pi, though the parameters are
+    // uneven.
     const NurbsSurface s = surfaces::quarter_cylinder(30, 50);
     EXPECT_NEAR(field_mean(s, s.control.row(2).transpose()), 2 * 30 / M_PI, 1e-3);
     EXPECT_NEAR(field_mean(s, Eigen::VectorXd::Constant(6, 0.8)), 0.8, 1e-15);
-    NurbsSurface uneven = patches::curved(100, false); // a plane with the speed of its parameter along u rising
+    NurbsSurface uneven = patches::curved(100, false); // a plane with the speed of its parameter
+                                                       // along u rising
     for (int j = 0; j < uneven.count_v; ++j)
         for (int i = 0; i < uneven.count_u; ++i)
             uneven.control.col(uneven.index(i, j)) << i * i, 10 * j, 0;
@@ -165,7 +167,8 @@ TEST(SharedControls, CountWhatIsSharedOnce)
     for (const patches::Sample& each : patches::samples()) {
         SCOPED_TRACE(each.name);
         const SharedControls shared = shared_controls(each.patches);
-        // The same place, the same number; the samples have no two control points at one place for another reason.
+        // The same place, the same number; the samples have no two control points at one place for
+        // another reason.
         std::vector<Eigen::Vector3d> place(size_t(shared.count), Eigen::Vector3d::Constant(std::nan("")));
         int different = 0;
         for (int p = 0; p < int(each.patches.patch.size()); ++p)

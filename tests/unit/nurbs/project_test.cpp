@@ -17,7 +17,8 @@ TEST(SurfaceProjection, FootOnASphereIsOnTheLineThroughItsCentre)
     const double radius = 50;
     const SurfaceProjection projection(surfaces::sphere_patch(radius), 4);
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> angle(-0.78, 0.78), size(0.05, 3); // from near the centre to far outside
+    // from near the centre to far outside
+    std::uniform_real_distribution<double> angle(-0.78, 0.78), size(0.05, 3);
     for (int i = 0; i < 2000; ++i) {
         const double azimuth = angle(random), latitude = angle(random);
         const Eigen::Vector3d direction(std::cos(latitude) * std::cos(azimuth), std::cos(latitude) * std::sin(azimuth),
@@ -38,7 +39,8 @@ TEST(SurfaceProjection, PointBesideTheCylinderGoesToItsEdgeOrCorner)
         EXPECT_LT((projection.nearest(point).position - truth).norm(), 1e-9) << point.transpose();
     };
     const double c = std::cos(0.7), s = std::sin(0.7);
-    expect_foot({20 * c, 55, 20 * s}, {radius * c, length, radius * s}); // beyond an end, inside the round
+    // beyond an end, inside the round
+    expect_foot({20 * c, 55, 20 * s}, {radius * c, length, radius * s});
     expect_foot({90 * c, -5, 90 * s}, {radius * c, 0, radius * s});
     expect_foot({35, 10, -8}, {radius, 10, 0}); // below a straight edge
     expect_foot({35, 50, -8}, {radius, length, 0});

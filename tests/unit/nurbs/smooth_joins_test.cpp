@@ -16,8 +16,8 @@ constexpr double degree = std::numbers::pi / 180;
 
 using patches::greatest_angle;
 
-/// The patch at 0 <= u <= 1 and the one beyond it of a surface over the plane, as control points of even Greville abscissas: of a
-/// plane or a parabolic sheet they join smoothly.
+/// The patch at 0 <= u <= 1 and the one beyond it of a surface over the plane, as control points of
+/// even Greville abscissas: of a plane or a parabolic sheet they join smoothly.
 MultiPatch two(const std::function<double(double, double)>& height)
 {
     std::vector<NurbsSurface> patches;

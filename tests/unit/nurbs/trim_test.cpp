@@ -22,7 +22,8 @@ NurbsSurface plane(double width, double height)
     return surfaces::bilinear({0, 0, 0}, {width, 0, 0}, {0, height, 0}, {width, height, 0});
 }
 
-/// A ring of triangles around a closed polygon in the plane: its inner border is the polygon, the outer one twice as large.
+/// A ring of triangles around a closed polygon in the plane: its inner border is the polygon, the
+/// outer one twice as large.
 TriMesh ring(const std::vector<Eigen::Vector2d>& hole)
 {
     const int n = int(hole.size());
@@ -150,7 +151,8 @@ TEST(Trim, HolesThatTouchTheBorderOrEachOtherStayFilled)
 
 TEST(Trim, AHolePinchedToAPointIsTrimmedOnBothSidesOfIt)
 {
-    // A grid of 6 x 6 squares without two that have a corner in common, which is a vertex on each side as the doctor leaves it.
+    // A grid of 6 x 6 squares without two that have a corner in common, which is a vertex on each
+    // side as the doctor leaves it.
     for (const bool middle : {false, true}) { // of three in a row
         PolygonSoup soup;
         for (int j = 0; j <= 6; ++j)

@@ -51,7 +51,8 @@ TriMesh marked(const BentSheet& sheet, const TriMesh& solid, const Where& where,
     Eigen::Matrix3Xd way = Eigen::Matrix3Xd::Zero(3, solid.vertices());
     way.leftCols(vertices) = -depth * sheet.normal;
     way.middleCols(vertices, vertices) = depth * sheet.normal;
-    for (int v = 2 * vertices; v < solid.vertices(); ++v) { // of a step before: as the vertex that it was
+    for (int v = 2 * vertices; v < solid.vertices(); ++v) { // of a step before: as the vertex that
+                                                            // it was
         Eigen::Index nearest;
         (sheet.mesh.position.colwise() - solid.position.col(v)).colwise().norm().minCoeff(&nearest);
         way.col(v) = -depth * sheet.normal.col(nearest);
@@ -144,7 +145,8 @@ TEST(Marks, OnFlatsAndAcrossBendsAreTakenOutOfTheSkin)
                 SCOPED_TRACE(fmt::format("{}, {} mm, {} side", where, depth, inner ? "lower" : "upper"));
                 const TriMesh with = marked(sheet, solid, cells, depth, inner);
                 ASSERT_TRUE(boundary_loops(with).empty());
-                expect_same(solid, with, 1, std::abs(depth), 5e-6); // floors over bends follow their chords
+                // floors over bends follow their chords
+                expect_same(solid, with, 1, std::abs(depth), 5e-6);
             }
 }
 
@@ -202,8 +204,9 @@ TEST(Marks, TextOfFewLongTrianglesIsPassedOver)
 
 TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
 {
-    const double height[] = {
-        3, 1.5, 0}; // of the plate's skins; the text is on the upper one, which is the outer or the inner one
+    const double height[] = {3, 1.5,
+                             0}; // of the plate's skins; the text is on the upper one, which is the
+                                 // outer or the inner one
     for (const int divisions : {0, 2})
         for (const Skin skin : {Skin::outer, Skin::middle, Skin::inner}) {
             const PartFile part = examined(shapes::divided(plate_with_text(0.3), divisions), skin);
@@ -240,7 +243,8 @@ TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
 
 TEST(Marks, OfAnyOutlineInPlaneSkinAreTakenOut)
 {
-    // Floors and tops with vertices of their own, as meshers make them along curved walls: foot and top of a wall do not match.
+    // Floors and tops with vertices of their own, as meshers make them along curved walls: foot and
+    // top of a wall do not match.
     shapes::SeededRandom random(7);
     for (int sample = 0; sample < 40; ++sample) {
         const double depth = random.between(0.2, 0.59) * (sample % 2 ? 1 : -1), z = 3;
@@ -335,7 +339,8 @@ TriMesh pocketed_plate(double length, double width, double z, double depth)
 
 TEST(Marks, APocketInAThickPlateIsNoHollowBody)
 {
-    // So thick that without the pocket it would be asked whether it is a closed box; with it only a plate can be meant.
+    // So thick that without the pocket it would be asked whether it is a closed box; with it only a
+    // plate can be meant.
     const ScratchFolder folder;
     shapes::write_mesh(folder / "plate.stl", pocketed_plate(100, 60, 3, 0.5));
     EXPECT_TRUE(read_part(folder / "plate.stl").solid);

@@ -63,7 +63,8 @@ protected:
 /// A CAD file and what is known of it.
 struct Known {
     const char* file;
-    double thickness, outer, middle; ///< mm, mm2 of the outer skin and of volume / thickness; 0: not known
+    double thickness, outer, middle; ///< mm, mm2 of the outer skin and of volume / thickness; 0:
+                                     ///< not known
     double tolerance;                ///< of the areas, for the chords of the mesh
     int outer_faces, inner_faces, loops;
 };
@@ -79,7 +80,8 @@ protected:
 
 TEST_F(SolidPart, SliversAcrossTheThicknessAreNotThoseOfTheSkin)
 {
-    const TriMesh foil = shapes::thickened(sheet().mesh, -0.02 * sheet().normal); // its rim: 3 mm long, 0.02 mm wide
+    // its rim: 3 mm long, 0.02 mm wide
+    const TriMesh foil = shapes::thickened(sheet().mesh, -0.02 * sheet().normal);
     const PartFile part = read_part(write("foil.obj", foil));
     ASSERT_TRUE(part.solid);
     EXPECT_EQ(part.doctor.find(Fault::sliver), nullptr);

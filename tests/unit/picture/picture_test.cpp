@@ -164,8 +164,9 @@ TEST(Picture, BlankHasItsAreaAndTheColoursOfItsThinning)
     EXPECT_NEAR(right - left, 452, 3); // panel less margins, and half a boundary line
     EXPECT_NEAR(bottom - top, 226, 3);
     EXPECT_EQ(image.drawn(510, 80, 990, 440), (right - left) * (bottom - top));
-    // Contours every 2 % (levels k / 50 of the value): look half way between them. Colours run from the second to the
-    // last but one column of vertices, since each of the 41 holds more than a hundredth of them: over the whole range.
+    // Contours every 2 % (levels k / 50 of the value): look half way between them. Colours run from
+    // the second to the last but one column of vertices, since each of the 41 holds more than a
+    // hundredth of them: over the whole range.
     for (const double thinning : {0.03, 0.07, 0.11, 0.15}) {
         const int x = 524 + int(452 * thinning / 0.2);
         const Eigen::Vector3d expected = viridis(thinning / 0.2);
@@ -219,9 +220,10 @@ TEST(Picture, HasAPanelForEachShapeAndTheSameBytesTwice)
     const Image image = decoded(first);
     EXPECT_EQ(image.width, 4 * 500);
     for (int panel = 0; panel < 4; ++panel) {
-        EXPECT_GT(image.drawn(500 * panel, 80, 500 * (panel + 1), 450), 30'000) << panel; // of 185 000 pixels
-        EXPECT_GT(image.drawn(500 * panel, 10, 500 * (panel + 1), 70), 500) << panel;     // title
-        EXPECT_EQ(image.drawn(500 * panel, 80, 500 * panel + 12, 450), 0) << panel;       // margin
+        // of 185 000 pixels
+        EXPECT_GT(image.drawn(500 * panel, 80, 500 * (panel + 1), 450), 30'000) << panel;
+        EXPECT_GT(image.drawn(500 * panel, 10, 500 * (panel + 1), 70), 500) << panel; // title
+        EXPECT_EQ(image.drawn(500 * panel, 80, 500 * panel + 12, 450), 0) << panel;   // margin
     }
     scene.quad_mesh = nullptr;
     write_picture(folder / "x.png", scene);

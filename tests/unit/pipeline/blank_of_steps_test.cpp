@@ -106,7 +106,8 @@ TEST(BlankOfSteps, PolishedItIsInEquilibriumAsAWhole)
 
 TEST(BlankOfSteps, TheStampingDirectionIsTheNormalOfItsPlaneAndTheSkinsKnowTheBends)
 {
-    // A U whose middle stays: its plane is that of the blank, and nothing but bending strains the skins.
+    // A U whose middle stays: its plane is that of the blank, and nothing but bending strains the
+    // skins.
     const shapes::DevelopablePart channel = shapes::extruded(
         shapes::Profile({0, 0}, 0).straight(20).bend(5, -pi / 2).straight(60).bend(5, -pi / 2).straight(25), 80, 4000);
     InSteps u(channel.mesh);

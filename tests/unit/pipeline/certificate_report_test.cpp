@@ -35,7 +35,8 @@ TEST(CertificateReport, OfAChannelIsClean)
 
 TEST(CertificateReport, SaysWhereTheSquareCupFolds)
 {
-    // Its outline is smooth where a corner of the grid lies: the two directions are nearly one there.
+    // Its outline is smooth where a corner of the grid lies: the two directions are nearly one
+    // there.
     const auto json = report_of("square-cup.obj");
     EXPECT_FALSE(json["suited"]);
     const auto& patch = json["patches"].at(0);

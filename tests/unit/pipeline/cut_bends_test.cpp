@@ -37,7 +37,8 @@ Eigen::Vector2d size_of(const Session& session)
     return turned.rowwise().maxCoeff() - turned.rowwise().minCoeff();
 }
 
-/// How far what is found may be off. Of STL: vertices are single precision, and the border has the chords of the mesher.
+/// How far what is found may be off. Of STL: vertices are single precision, and the border has the
+/// chords of the mesher.
 struct Bounds {
     double length, radius, angle; ///< of the length and of the radius; radians
 };
@@ -118,7 +119,8 @@ private:
     ScratchFolder folder_;
 };
 
-/// Wide beside the bend: on the flats the walls of the notch lie so askew that they say next to nothing of where in the sheet its rim is.
+/// Wide beside the bend: on the flats the walls of the notch lie so askew that they say next to
+/// nothing of where in the sheet its rim is.
 TEST(WideNotch, LeavesTheFlatsBesideABendInTheirPlanes)
 {
     const ScratchFolder folder;

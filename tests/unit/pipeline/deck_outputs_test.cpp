@@ -66,7 +66,8 @@ std::vector<std::string> cards(const fs::path& file, const std::string& keyword)
 
 double column(const std::string& line, size_t k, size_t width) { return std::stod(line.substr(k * width, width)); }
 
-/// All formats of a part with a blank that is no solution: what is drawn on it by x and y, with fields of any size.
+/// All formats of a part with a blank that is no solution: what is drawn on it by x and y, with
+/// fields of any size.
 class DeckFiles : public testing::Test {
 protected:
     PartFile read(const std::string& name, const std::string& text, const ReadOptions& options = {})
@@ -77,7 +78,8 @@ protected:
     void write(const PartFile& part)
     {
         fields = samples::smooth_fields(part.mesh.triangles());
-        for (int f = 0; f < part.mesh.triangles(); ++f) // across the direction of the sample: on the face
+        for (int f = 0; f < part.mesh.triangles(); ++f) // across the direction of the sample: on
+                                                        // the face
             fields.direction_major.col(f) =
                 (part.mesh.position.col(part.mesh.triangle(1, f)) - part.mesh.position.col(part.mesh.triangle(0, f)))
                     .normalized();
@@ -112,7 +114,8 @@ TEST_F(DeckFiles, ReadBackWithTheIdsCornersPartsAndPlacesOfTheDeck)
                 Vector3d expected = places_of(before).at(id);
                 if (flat)
                     expected = {expected[0] / 3, expected[1] / 3, 0};
-                EXPECT_LT((place - expected).norm(), 1e-11 * (1 + expected.norm())) << id; // 12 digits
+                // 12 digits
+                EXPECT_LT((place - expected).norm(), 1e-11 * (1 + expected.norm())) << id;
             }
             EXPECT_EQ(after.nodes(), before.nodes());
             for (int e = 0; e < after.elements(); ++e) {
@@ -176,7 +179,8 @@ TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement
             corners.push_back(quad);
             text += fmt::format("{},1,{},{},{},{}\n", 100 + corners.size(), quad[0], quad[1], quad[2], quad[3]);
         }
-    text += fmt::format("200,1,{},{},{},0\n", id(1, 1), id(2, 2), id(1, 2)); // the other half of the quad in the middle
+    // the other half of the quad in the middle
+    text += fmt::format("200,1,{},{},{},0\n", id(1, 1), id(2, 2), id(1, 2));
     const PartFile part = read("patch.k", text);
     ASSERT_TRUE(part.doctor.find(Fault::flipped_face));
     blank.position.resize(2, part.mesh.vertices());
@@ -271,7 +275,8 @@ TEST_F(DeckFiles, ThicknessTimesAreaAddsUpToTheVolumeAtElementsAndAtCorners)
     for (int e = 0; e < shells.mesh.elements(); ++e)
         by_corners += on.area[e] * on.corner_thickness.col(e).sum() / double(shells.mesh.corners(e));
     EXPECT_NEAR(by_corners / volume, 1, 1e-14);
-    EXPECT_GT((on.corner_thickness.row(0) - on.corner_thickness.row(1)).norm(), 1e-3); // and they do differ
+    // and they do differ
+    EXPECT_GT((on.corner_thickness.row(0) - on.corner_thickness.row(1)).norm(), 1e-3);
     const auto at = [&](std::int64_t id) {
         return std::find(shells.mesh.element.begin(), shells.mesh.element.end(), id) - shells.mesh.element.begin();
     };
@@ -291,7 +296,8 @@ TEST_F(DeckFiles, KeepTheUnitOfTheDeck)
     const auto blank_places = places_of(written("out-blank.msh"));
     for (const auto& [id, place] : places_of(before))
         EXPECT_NEAR(blank_places.at(id)[0], place[0] / 3, 1e-12);
-    EXPECT_NEAR(*written("out-blank.k").parts[0].thickness, 0.8 / 25.4, 5e-8); // six digits in ten columns
+    // six digits in ten columns
+    EXPECT_NEAR(*written("out-blank.k").parts[0].thickness, 0.8 / 25.4, 5e-8);
     EXPECT_NE(content_of(scratch / "out-elements.csv").find("thickness_inch"), std::string::npos);
 }
 

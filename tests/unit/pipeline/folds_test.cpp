@@ -38,7 +38,8 @@ long told(const std::filesystem::path& dxf, const std::string& name)
     return count;
 }
 
-/// The table has them as sharp: what it deducts from the outer lengths of the legs, up to where their outer sides meet, gives the blank.
+/// The table has them as sharp: what it deducts from the outer lengths of the legs, up to where
+/// their outer sides meet, gives the blank.
 void expect_rows(const Session& session, int flats, double width, double angle, double length)
 {
     const auto& bends = session.bends->bends;

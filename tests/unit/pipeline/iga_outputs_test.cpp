@@ -52,7 +52,8 @@ TEST(IgaOutputs, HoldTheSurfaceOfTheChainBitForBit)
     expect_surface(iga::read_mfem(out / "square-cup-mfem.mesh"));
     expect_surface(iga::read_geopdes(out / "square-cup-geopdes.txt"));
 
-    // Thickness and strain at the nodes are those of the blank, carried to the nodes of the lifted grid.
+    // Thickness and strain at the nodes are those of the blank, carried to the nodes of the lifted
+    // grid.
     const auto fields = surface_fields(session);
     EXPECT_EQ(iga::read_gismo(out / "square-cup-gismo-thickness.xml").values, fields[0].value);
     EXPECT_EQ(iga::read_gismo(out / "square-cup-gismo-plastic_strain.xml").values, fields[1].value);
@@ -76,7 +77,8 @@ TEST(IgaOutputs, HoldTheSurfaceOfTheChainBitForBit)
     EXPECT_LT(mean, sheet.thickness.maxCoeff());
 }
 
-/// Within a tolerance the surface has data of its own: what the field says at the foot of a vertex of the part is still what the vertex has.
+/// Within a tolerance the surface has data of its own: what the field says at the foot of a vertex
+/// of the part is still what the vertex has.
 TEST(IgaOutputs, FieldsOfASurfaceWithinAToleranceAreThoseOfThePart)
 {
     Session session = finished("dome.obj");

@@ -53,7 +53,8 @@ Session solved(const fs::path& file, const std::optional<KFactor>& k = {}, const
     return completed(run_chain(std::move(session), Stage::read, Stage::solve));
 }
 
-/// Length across `along` and width along it of the outer outline, and how far its vertices are off that rectangle.
+/// Length across `along` and width along it of the outer outline, and how far its vertices are off
+/// that rectangle.
 struct Rectangle {
     double length, width, off;
 };
@@ -172,7 +173,8 @@ TEST_F(PartBends, TheLineOfABendLiesInItsMiddleAndTellsUpFromDown)
     const auto& bends = session.bends->bends;
     EXPECT_NEAR(std::abs(across.dot(b.from - a.from)), 30 + (bends[0].allowance + bends[1].allowance) / 2, 1e-6);
     EXPECT_NEAR(std::abs(across.dot(b.to - a.to)), 30 + (bends[0].allowance + bends[1].allowance) / 2, 1e-6);
-    // Seen on the blank, the sheet beyond a bend that goes up comes towards the eye: its faces turn to each other there.
+    // Seen on the blank, the sheet beyond a bend that goes up comes towards the eye: its faces turn
+    // to each other there.
     const TriMesh& part = session.part->mesh;
     const Eigen::Matrix3Xd normal = area_vectors(part);
     for (const SheetBend& bend : bends) {
@@ -260,7 +262,8 @@ TEST_F(PartBends, AMeshHasTheRadiusOfTheCircleThroughItsVertices)
 
 TEST_F(PartBends, OfMeshesOfSolidsAreFoundHoweverLargeTheirRadius)
 {
-    // As CAD writes them: single precision, chords of every angle; R/t from 0.2 to 60, legs from a tenth of the radius on.
+    // As CAD writes them: single precision, chords of every angle; R/t from 0.2 to 60, legs from a
+    // tenth of the radius on.
     shapes::SeededRandom random(29);
     int bends = 0;
     for (int sample = 0; sample < 60; ++sample) {
@@ -309,7 +312,8 @@ TEST_F(PartBends, OfMeshesOfSolidsAreFoundHoweverLargeTheirRadius)
 
 TEST_F(PartBends, FlatsAroundACircleAreNoCylinder)
 {
-    // Of sharp folds: three flats of a symmetric channel lie on a circle, and so do those of half a polygon.
+    // Of sharp folds: three flats of a symmetric channel lie on a circle, and so do those of half a
+    // polygon.
     for (const double angle : {0.2, 0.5, 0.9})
         for (const int folds : {2, 3}) {
             std::vector<shapes::ProfilePiece> profile{{30, 0, 0}};
@@ -327,7 +331,8 @@ TEST_F(PartBends, FlatsAroundACircleAreNoCylinder)
 
 TEST_F(PartBends, EqualFoldsOfASolidAreNoCylinder)
 {
-    // Their corners lie on two circles as those of chords do, but farther apart than the flats are thick.
+    // Their corners lie on two circles as those of chords do, but farther apart than the flats are
+    // thick.
     std::mt19937 draw(57);
     const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(draw); };
     for (int i = 0; i < 20; ++i) {
@@ -399,7 +404,8 @@ TEST_F(PartBends, WhereAllFoldsAreSharpAKFactorIsNotedWithoutADoubt)
 TEST_F(PartBends, ABendThatIsNotLaidIsAShortcomingWithItsPlaceAndAWayOut)
 {
     BentSolid solid = l_bracket();
-    solid.bend = {{0.01, pi / 2}}; // of 2 mm sheet: with this K next to nothing would be left of the bend
+    solid.bend = {{0.01, pi / 2}}; // of 2 mm sheet: with this K next to nothing would be left of
+                                   // the bend
     const Session session = solved(write(solid), constant_k(0.001));
     ASSERT_EQ(session.bends->bends.size(), 1u);
     const SheetBend& bend = session.bends->bends[0];

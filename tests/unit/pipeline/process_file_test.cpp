@@ -75,7 +75,8 @@ TEST(ProcessFile, HoldsEveryCondition)
     EXPECT_EQ(p.edge_restraint, 0.1);
     EXPECT_EQ(p.pilots[0].line.size(), 1u);
     EXPECT_EQ(p.tailored[0].material.name, find_material("dp600", materials).name);
-    EXPECT_EQ(p.tailored[0].faces.size(), 20u); // two columns, and of the next the triangles whose middle is inside
+    EXPECT_EQ(p.tailored[0].faces.size(), 20u); // two columns, and of the next the triangles whose
+                                                // middle is inside
     EXPECT_EQ(p.rolling, Eigen::Vector3d(0, 1, 0));
     EXPECT_EQ(process_of("{}"), ProcessConditions{});
 }
@@ -139,7 +140,8 @@ TEST(ProcessReport, HasTheFiguresOfWhatTheToolsDid)
     EXPECT_NEAR(binder["friction_force_N"].get<double>(), 160, 1e-9);
     EXPECT_EQ(binder["friction"], 0.1);
     EXPECT_EQ(binder["sides"], 2);
-    EXPECT_NEAR(process["contact"][1]["friction_force_N"].get<double>(), 0.2 * 0.5 * 50, 1e-9); // half of 10 x 10 mm
+    // half of 10 x 10 mm
+    EXPECT_NEAR(process["contact"][1]["friction_force_N"].get<double>(), 0.2 * 0.5 * 50, 1e-9);
     EXPECT_EQ(process["drawbeads"][0]["force_N_mm"], 90);
     EXPECT_NEAR(process["drawbeads"][0]["length_mm"].get<double>(), 35, 1e-9);
     const double lock = lock_force(options.material, options.thickness);

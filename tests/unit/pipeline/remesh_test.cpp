@@ -52,7 +52,8 @@ double blank_area(const Session& session)
     return area(flat);
 }
 
-/// Length and width of the blank, turned to where its width is least: 90 directions and then a finer search.
+/// Length and width of the blank, turned to where its width is least: 90 directions and then a
+/// finer search.
 Eigen::Vector2d extents(const Session& session)
 {
     const Eigen::Matrix2Xd& p = session.blank->blank.position;
@@ -93,7 +94,8 @@ TEST_P(RemeshedCad, FlattensToTheSameBlankWithGoodTriangles)
 INSTANTIATE_TEST_SUITE_P(Files, RemeshedCad, testing::Values("fan_bracket_skin.step", "drawn_cone_skin.step"),
                          [](const auto& file) { return std::string(file.param).substr(0, 3); });
 
-/// Bends in strips along their generators are developable exactly, and so they are with other triangles.
+/// Bends in strips along their generators are developable exactly, and so they are with other
+/// triangles.
 TEST(RemeshedPart, ADevelopableInStripsCostsNoStrain)
 {
     const auto file = std::filesystem::temp_directory_path() / "spia_remesh_strips.obj";
@@ -110,7 +112,8 @@ TEST(RemeshedPart, ADevelopableInStripsCostsNoStrain)
     EXPECT_NEAR(size.minCoeff(), 200, 1e-3);
 }
 
-/// Bends whose edges cross the generators are folded a little by any other triangles: by what their own chords cost.
+/// Bends whose edges cross the generators are folded a little by any other triangles: by what their
+/// own chords cost.
 TEST(RemeshedPart, ADevelopableAcrossItsGeneratorsIsShortByTheChords)
 {
     const auto file = std::filesystem::temp_directory_path() / "spia_remesh_channel.obj";
@@ -126,7 +129,8 @@ TEST(RemeshedPart, ADevelopableAcrossItsGeneratorsIsShortByTheChords)
             triangles, session.part->mesh.triangles(), session.part->remeshed->tolerance, blank_area(session),
             area(flat), thinning.minCoeff(), thinning.maxCoeff(), session.part->remeshed->seconds,
             session.seconds.at(Stage::solve));
-        const double chords = std::abs(area(part.mesh) - area(flat)); // what the given triangles are short of
+        // what the given triangles are short of
+        const double chords = std::abs(area(part.mesh) - area(flat));
         fmt::print("the given triangles {:.8g} mm2: short by {:.3g} mm2, the remeshed blank by {:.3g}\n",
                    area(part.mesh), chords, area(flat) - blank_area(session));
         EXPECT_NEAR(blank_area(session), area(flat), 2.5 * chords);

@@ -214,7 +214,8 @@ TEST(RunChain, ADeformationThatCannotBeIsAFailureOfTheSurfaceAlone)
 {
     ChainWishes wishes;
     wishes.deformation.emplace();
-    wishes.deformation->moves.push_back({0, 1000, 0, Eigen::Vector3d::UnitZ()}); // no such control point
+    // no such control point
+    wishes.deformation->moves.push_back({0, 1000, 0, Eigen::Vector3d::UnitZ()});
     const ChainRun run = run_chain(dome(), Stage::read, Stage::fit, wishes);
     ASSERT_TRUE(run.failure);
     EXPECT_EQ(run.failure->stage, Stage::fit);

@@ -1,5 +1,6 @@
-// A real analysis stands on what the program writes: the Scordelis-Lo roof [Belytschko et al. 1985, shell obstacle course; Kiendl et al. 2009: 0.3006 for
-// shells that are rigid in shear] from a mesh through the chain and a file to a shell solver.
+// A real analysis stands on what the program writes: the Scordelis-Lo roof [Belytschko et al. 1985,
+// shell obstacle course; Kiendl et al. 2009: 0.3006 for shells that are rigid in shear] from a mesh
+// through the chain and a file to a shell solver.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +31,8 @@ double sinking(const MultiPatch& patches)
 {
     analysis::Shell shell{patches, 0.25, 4.32e8, 0, {0, 0, -90}, {}};
     shell.held = [&](int number,
-                     const Eigen::Vector3d& x) { // diaphragms at both ends; free along them but for one point
+                     const Eigen::Vector3d& x) { // diaphragms at both ends; free along them but for
+                                                 // one point
         const bool end = x.y() < 1e-3 || x.y() > span - 1e-3;
         return std::array{end, number == 0, end};
     };

@@ -14,7 +14,8 @@ namespace {
 using shapes::BentSolid;
 }
 
-/// Solids with a hole drilled askew through their first bend. Volume / thickness is the area of the middle surface, whatever the triangles.
+/// Solids with a hole drilled askew through their first bend. Volume / thickness is the area of the
+/// middle surface, whatever the triangles.
 TEST(SheetArea, HolesThroughBendsLieOnTheMiddleSurface)
 {
     const ScratchFolder folder;
@@ -51,8 +52,8 @@ TEST(SheetArea, RoundHolesAreRoundByDefault)
     EXPECT_NEAR(area(part.mesh) * solid.thickness / shapes::exact_volume(file), 1, 1e-4);
 }
 
-/// Through a right angle holes are askew by up to 45 degrees to the legs and more to the bend: not all their vertices can lie on the middle
-/// surface, but none may fold it.
+/// Through a right angle holes are askew by up to 45 degrees to the legs and more to the bend: not
+/// all their vertices can lie on the middle surface, but none may fold it.
 TEST(SheetArea, HolesOfEverySizeThroughARightAngleStrainNothing)
 {
     const ScratchFolder folder;

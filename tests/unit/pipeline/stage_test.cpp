@@ -42,7 +42,8 @@ TEST(Chain, RunsEverySamplePartWithoutAFlipOrAFold)
         EXPECT_EQ(session.blank->flipped_triangles, 0) << entry.path();
         EXPECT_EQ(session.grid->result.quality.folded_cells, 0) << entry.path();
         EXPECT_EQ(session.blank->report.system, SolvedSystem::strict) << entry.path();
-        // None of these surfaces, which go through the nodes of the usual grid, stays within the usual tolerance.
+        // None of these surfaces, which go through the nodes of the usual grid, stays within the
+        // usual tolerance.
         const double off = session.surface->deviation.max();
         EXPECT_EQ(off > usual_tolerance, far_surface(session).has_value()) << entry.path();
         EXPECT_EQ(shortcomings(session).size(), (session.blank->necking_triangles > 0) +
@@ -227,7 +228,8 @@ TEST(Report, SaysThatABlankWinds)
     EXPECT_EQ(winds(), 1);
 }
 
-/// The figures of a part with holes and of a blank that lies on itself, each found in another way than the report's.
+/// The figures of a part with holes and of a blank that lies on itself, each found in another way
+/// than the report's.
 TEST(Report, GivesTheFiguresOfTheResult)
 {
     const Session session = finished("inner-panel.obj");
@@ -307,7 +309,8 @@ TEST(Report, NamesEveryShortcoming)
     poorer.report.reason = "stalled";
     poorer.necking_triangles = 3;
     poorer.blank.position.row(0).array() -= poorer.blank.position.row(0).mean();
-    poorer.blank.position.row(0) = poorer.blank.position.row(0).cwiseAbs(); // folded over: the outline meets itself
+    // folded over: the outline meets itself
+    poorer.blank.position.row(0) = poorer.blank.position.row(0).cwiseAbs();
     poorer.overlap = overlap(session.part->mesh, poorer.blank.position);
     poorer.overlap.wound = {0};
     session.blank = std::make_shared<FlattenResult>(poorer);
@@ -394,7 +397,8 @@ TEST(Outputs, OptionsSayWhatIsWrittenUnderWhichName)
     options = {};
     options.glb = {false, false, false, true, true};
     session.surface.reset();
-    EXPECT_TRUE(write_outputs(session, folder / "none", {"iges", "glb"}, options).empty()); // no surface yet
+    // no surface yet
+    EXPECT_TRUE(write_outputs(session, folder / "none", {"iges", "glb"}, options).empty());
 }
 
 TEST(Outputs, TheTableOfFieldsCallsVerticesAsTheFileDoes)

@@ -129,7 +129,8 @@ TEST(StampedBends, OfMeshesAreLaidFlatAsIfTheyWerePlain)
                                  solid.bend[0].inner_radius, solid.bend[0].angle, solid.stamp[0].depth));
         const Session session = solved_part(folder / "part.stl");
         ASSERT_TRUE(session.part->solid);
-        if (session.part->solid->skin != Skin::middle) { // the outer skin is laid flat instead, which is said
+        if (session.part->solid->skin != Skin::middle) { // the outer skin is laid flat instead,
+                                                         // which is said
             EXPECT_FALSE(session.part->doubts.empty());
             ++fallen_back;
             continue;

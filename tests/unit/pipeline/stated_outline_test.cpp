@@ -1,5 +1,5 @@
-// Circles, arcs and lines of CAD files in the DXF of the blank: exactly those of the file, however coarse the triangles are. Files are
-// read here group by group, for our own reader makes chords.
+// Circles, arcs and lines of CAD files in the DXF of the blank: exactly those of the file, however
+// coarse the triangles are. Files are read here group by group, for our own reader makes chords.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -228,7 +228,8 @@ TEST_F(StatedOutline, HolesOfPlatesAndBracketsAreThoseOfTheFileHoweverCoarseTheT
 
 TEST_F(StatedOutline, TheyAreTheSameOnceThePartIsRemeshed)
 {
-    // Of plates: bends of other triangles than those along them are chords every which way, which strains the legs by micrometres.
+    // Of plates: bends of other triangles than those along them are chords every which way, which
+    // strains the legs by micrometres.
     for (std::uint64_t seed = 31; seed <= 36; ++seed) {
         BentSolid solid = drilled(seed);
         solid.bend.clear();
@@ -286,7 +287,8 @@ TEST_F(StatedOutline, WhereAHoleGoesIntoABendOnlyItsFlatArcIsStated)
 
 TEST_F(StatedOutline, MarksAreOutlinesInTheBlank)
 {
-    for (const double side : {1., -1.}) { // a bend to either side: engraved into the outer skin, and into the inner one
+    for (const double side : {1., -1.}) { // a bend to either side: engraved into the outer skin,
+                                          // and into the inner one
         BentSolid solid;
         solid.leg = {80, 50};
         solid.bend = {{3, side * pi / 2}};
@@ -323,7 +325,8 @@ TEST_F(StatedOutline, AMarkAcrossABendHasTheLengthOfTheSheetThere)
 {
     constexpr double t = 2, depth = 0.2;
     const shapes::BentSheet sheet = shapes::bent_sheet(
-        shapes::Profile({0, 0}, 0).straight(30).bend(6, -pi / 2).straight(20), 60, 2); // the second leg goes down
+        // the second leg goes down
+        shapes::Profile({0, 0}, 0).straight(30).bend(6, -pi / 2).straight(20), 60, 2);
     const int faces = sheet.mesh.triangles(), vertices = sheet.mesh.vertices();
     for (const bool inner : {false, true}) {
         std::vector<char> chosen(2 * size_t(faces), 0);
@@ -348,7 +351,8 @@ TEST_F(StatedOutline, AMarkAcrossABendHasTheLengthOfTheSheetThere)
         const auto outline = std::find_if(all.loops.begin(), all.loops.end(),
                                           [](const DrawnLoop& loop) { return loop.layer == "OUTLINE"; });
         const Eigen::Vector2d blank = outline->point.rowwise().maxCoeff() - outline->point.rowwise().minCoeff();
-        // All of the bend, and of the legs 8 and 10 mm. A mark on the hollow side keeps the bend of a mesh from being laid as an arc.
+        // All of the bend, and of the legs 8 and 10 mm. A mark on the hollow side keeps the bend of
+        // a mesh from being laid as an arc.
         const double length = blank.minCoeff() - 22 - 10;
         EXPECT_NEAR(length, 8 + pi / 2 * 5 + 10, inner ? 0.05 : 1e-4);
         EXPECT_NEAR(size.maxCoeff(), length, 1e-3) << inner;

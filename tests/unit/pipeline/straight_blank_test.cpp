@@ -61,8 +61,8 @@ std::vector<Eigen::Matrix2Xd> pictures_of(Session session)
 
 TEST(StraightBlank, IsSeenStraightFromTheFirstShapeOn)
 {
-    constexpr double jump =
-        5 * pi / 180; // what an eye takes for one; shapes themselves turn by less from one to the next
+    constexpr double jump = 5 * pi / 180; // what an eye takes for one; shapes themselves turn by
+                                          // less from one to the next
     for (const char* part : {"dome", "fender", "inner-panel", "lipped-channel", "perforated-channel", "square-cup"}) {
         Session session;
         session.file = std::string(SPIA_SOURCE_DIR "/assets/parts/") + part + ".obj";
@@ -132,7 +132,8 @@ TEST(StraightBlank, TheRollingDirectionLiesAlongXAndTheStrainsStay)
     const ScratchFolder folder;
     const Eigen::Vector3d rolling(std::cos(0.4), std::sin(0.4), 0);
     TriMesh part =
-        shapes::extruded(shapes::Profile({0, 0}, 0).straight(60), 40, 300).mesh; // in the plane of x and y, or x and z
+        // in the plane of x and y, or x and z
+        shapes::extruded(shapes::Profile({0, 0}, 0).straight(60), 40, 300).mesh;
     const Eigen::Matrix3Xd arm = part.position.colwise() - part.position.rowwise().mean();
     Eigen::Index thin;
     arm.cwiseAbs().rowwise().maxCoeff().minCoeff(&thin);
@@ -141,7 +142,8 @@ TEST(StraightBlank, TheRollingDirectionLiesAlongXAndTheStrainsStay)
             Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::Unit(thin == 1 ? 0 : 1)).toRotationMatrix() * part.position;
     const Session session = solved(folder, part, rolling);
     const Eigen::Matrix2Xd& flat = session.blank->blank.position;
-    // Of every edge the angle to the rolling direction on the part is that to x in the blank, up to a half turn of all.
+    // Of every edge the angle to the rolling direction on the part is that to x in the blank, up to
+    // a half turn of all.
     const TriMesh& read = session.part->mesh;
     const double side = session.blank->stamping.direction[2];
     for (int f = 0; f < read.triangles(); ++f) {

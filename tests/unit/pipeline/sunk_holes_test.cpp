@@ -1,4 +1,5 @@
-// Countersinks and counterbores of sheet solids: what is cut is the least diameter, what is sunk is told and drawn.
+// Countersinks and counterbores of sheet solids: what is cut is the least diameter, what is sunk is
+// told and drawn.
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -25,7 +26,8 @@ using shapes::CadForm;
 using shapes::Cutout;
 using shapes::Sink;
 
-/// One of a hole on each leg of a plate or a bracket: sunk from either side, to any depth, through all of it at times.
+/// One of a hole on each leg of a plate or a bracket: sunk from either side, to any depth, through
+/// all of it at times.
 BentSolid random_sunk_solid(std::uint64_t seed)
 {
     shapes::SeededRandom random(seed);
@@ -48,14 +50,16 @@ BentSolid random_sunk_solid(std::uint64_t seed)
         sink.left = random.coin();
         const bool through = !sink.counterbore && random.whole(0, 2) == 0;
         sink.depth =
-            solid.thickness * (through ? 1 : random.between(0.25, 0.9)); // shallower wide counterbores are marks
+            // shallower wide counterbores are marks
+            solid.thickness * (through ? 1 : random.between(0.25, 0.9));
         sink.wide = sink.hole + random.between(0.5, 1.2) * (sink.counterbore ? solid.thickness : sink.depth);
         solid.sink.push_back(sink);
     }
     return solid;
 }
 
-/// Plates and brackets with one to four counterbores of catalogue's sizes, tenths of a millimetre, from both sides.
+/// Plates and brackets with one to four counterbores of catalogue's sizes, tenths of a millimetre,
+/// from both sides.
 BentSolid random_counterbored_solid(std::uint64_t seed)
 {
     shapes::SeededRandom random(seed + 1000);
@@ -78,7 +82,8 @@ BentSolid random_counterbored_solid(std::uint64_t seed)
         sink.wide = sink.hole + tenths(2, 4.5);
         sink.counterbore = true;
         sink.left = random.coin();
-        sink.depth = tenths(0.25 * solid.thickness, 0.9 * solid.thickness); // shallower ones are marks
+        // shallower ones are marks
+        sink.depth = tenths(0.25 * solid.thickness, 0.9 * solid.thickness);
         solid.sink.push_back(sink);
     }
     return solid;
@@ -102,8 +107,9 @@ BentSolid counterbored(double length, double width, double thickness, double wid
     return solid;
 }
 
-/// One to six countersinks and a counterbore or two on one flat of a plate or an L bracket, from both sides, of any angle from 60 to 140 degrees,
-/// a tenth of the thickness deep to all of it, holes of half the thickness to six times it. Hundredths of a millimetre.
+/// One to six countersinks and a counterbore or two on one flat of a plate or an L bracket, from
+/// both sides, of any angle from 60 to 140 degrees, a tenth of the thickness deep to all of it,
+/// holes of half the thickness to six times it. Hundredths of a millimetre.
 BentSolid random_mixed_sinks(std::uint64_t seed)
 {
     shapes::SeededRandom random(seed + 5000);
@@ -162,7 +168,8 @@ Round round_of(const Eigen::Matrix3Xd& points)
     return {circle->radius, off};
 }
 
-/// Of a plate: that of its outline less its holes, whose chords of up to 0.2 radians take 0.7 % of a hole.
+/// Of a plate: that of its outline less its holes, whose chords of up to 0.2 radians take 0.7 % of
+/// a hole.
 void expect_area(const BentSolid& solid, const TriMesh& blank)
 {
     if (!solid.bend.empty())
@@ -241,7 +248,8 @@ TEST(SunkHoles, HaveTheirLeastDiameterAndAreTold)
 
 TEST(SunkHoles, OfAnyAngleDepthAndSizeAreRightHoweverManyAreOnAFlat)
 {
-    // Their walls are no skins, though of the flattest ones most lies opposite to the other skin at about the thickness.
+    // Their walls are no skins, though of the flattest ones most lies opposite to the other skin at
+    // about the thickness.
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
@@ -305,7 +313,8 @@ TEST(SunkHoles, ThatABorderABendOrAnotherOneCutsOffAreTold)
             for (const CadForm form : {CadForm::step, CadForm::stl})
                 for (const std::string& at_one : {std::string("border"), std::string("bend"), std::string("another")}) {
                     if (at_one == "bend" && left && half_angle > 1)
-                        continue; // so flat a cone runs through the hollow side of the bend into the other leg
+                        continue; // so flat a cone runs through the hollow side of the bend into
+                                  // the other leg
                     const double wide = 2.5 + 1.5 * std::tan(half_angle), reach = 0.6;
                     std::vector<Eigen::Vector2d> centres = {{20, 20}, {20, 20 + 2 * wide - reach}};
                     if (at_one != "another")
@@ -374,7 +383,8 @@ TEST(SunkHoles, InABendAreToldAndDoubted)
 TEST(SunkHoles, OpenAtABorderAreToldAndWithoutAStraightWallDoubted)
 {
     const ScratchFolder folder;
-    for (const double y : {0., 1., 3.}) // both circles are open at the border, from more than half on
+    for (const double y : {0., 1., 3.}) // both circles are open at the border, from more than half
+                                        // on
         for (const bool land : {false, true})
             for (const CadForm form : {CadForm::step, CadForm::stl}) {
                 SCOPED_TRACE(fmt::format("at y {}, {}, {}", y, land ? "land" : "no land",

@@ -198,8 +198,8 @@ TEST_F(UnfoldStates, AMissingOrDamagedFileIsSaid)
     for (int k = 0; k < 300; ++k) {
         std::string bad = good;
         const size_t at = draw() % (k % 2 ? bad.size() : 4000);
-        bad[at] =
-            char(bad[at] ^ char(1 << (k % 8))); // one bit: most are numbers, and another number is no fault of form
+        bad[at] = char(bad[at] ^ char(1 << (k % 8))); // one bit: most are numbers, and another
+                                                      // number is no fault of form
         put(bad);
         EXPECT_THROW(read(steps), InputError) << at;
     }

@@ -51,7 +51,8 @@ double edge_length_near(const TriMesh& mesh, const Eigen::Vector3d& place, doubl
     return sum / edges;
 }
 
-/// Shares drawn at random for the vertices around random places of a dome, among them such on its border.
+/// Shares drawn at random for the vertices around random places of a dome, among them such on its
+/// border.
 TEST(RemeshIncrementally, RefinesWhereItIsToldAndLeavesAllElseAsItIs)
 {
     const TriMesh dome = shapes::sample("dome").make(4000);

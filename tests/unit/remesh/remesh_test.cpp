@@ -30,7 +30,8 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180, pi = std::numbers::pi;
 
-/// Splits edges and faces of the mesh near their corners, at random, so that there are many needles and caps. The surface is the same.
+/// Splits edges and faces of the mesh near their corners, at random, so that there are many needles
+/// and caps. The surface is the same.
 TriMesh with_slivers(const TriMesh& mesh, int splits, unsigned seed)
 {
     std::mt19937 random(seed);
@@ -101,7 +102,8 @@ TEST(Remesh, ThinTrianglesBecomeGoodOnes)
     for (const char* name : {"sphere-cap", "saddle", "perforated-channel"}) {
         const TriMesh thin = with_slivers(shapes::sample(name).make(4000), 3000, 3);
         const RemeshResult result = remesh(thin);
-        EXPECT_LT(result.before.least_angle, 1 * degrees) << name; // else there is nothing to be mended
+        // else there is nothing to be mended
+        EXPECT_LT(result.before.least_angle, 1 * degrees) << name;
         EXPECT_GT(shapes::least_angles(result.mesh).minCoeff(), 20 * degrees) << name;
         EXPECT_LT(result.after.edge_ratio, 3) << name;
         EXPECT_NEAR(result.after.least_angle, shapes::least_angles(result.mesh).minCoeff(), 1e-12);
@@ -118,7 +120,8 @@ TEST(Remesh, NoPlaceIsFartherThanItSays)
         const double seen =
             std::max(sampled_distance(part, result.mesh, 50000), sampled_distance(result.mesh, part, 50000));
         EXPECT_LE(seen, result.distance) << name;
-        EXPECT_GT(seen, 0.8 * result.distance - 0.11 * *options.tolerance) << name; // the bound says something
+        // the bound says something
+        EXPECT_GT(seen, 0.8 * result.distance - 0.11 * *options.tolerance) << name;
         EXPECT_LE(result.distance, *options.tolerance) << name;
     }
 }
@@ -135,7 +138,8 @@ TEST(MeshDistance, OfParallelTiltedAndBentMeshesIsThatOfThePlane)
     EXPECT_NEAR(found.seen, 1, 1e-9);
     EXPECT_GE(found.bound, found.seen);
     EXPECT_LE(found.bound, 1.1);
-    // A ridge between two samples: the middle of a chord over a roof is 5 mm below it, and no vertex shows that.
+    // A ridge between two samples: the middle of a chord over a roof is 5 mm below it, and no
+    // vertex shows that.
     TriMesh roof = shapes::rectangle(100, 60, 2, 1), chord = shapes::rectangle(100, 60, 1, 1);
     for (int v = 0; v < roof.vertices(); ++v)
         if (std::abs(roof.position(0, v) - roof.position.row(0).mean()) < 1)
@@ -156,7 +160,8 @@ TEST(Remesh, StraightBordersCornersAndSharpEdgesStayExactly)
         options.size = size;
         const RemeshResult result = remesh(part, options);
         EXPECT_NEAR(loop_lengths(result.mesh).at(0), 360, 1e-9);
-        EXPECT_EQ(result.corners, 6);                                  // four of the sheet and both ends of the edge
+        // four of the sheet and both ends of the edge
+        EXPECT_EQ(result.corners, 6);
         EXPECT_NEAR(area(result.mesh), area(part), 1e-9 * area(part)); // no face cuts the edge off
         double sharp = 0;
         const Eigen::Matrix3Xd normal = area_vectors(result.mesh);
@@ -278,8 +283,8 @@ TEST(Remesh, RefusesWhatCannotBeHeldBeforeItIsMade)
     }
 }
 
-/// A plate in which many edges are gaps: on one side they are divided at a vertex that is off by up to the gap, and a thin face lies between,
-/// as CAD faces that do not quite meet are sewn.
+/// A plate in which many edges are gaps: on one side they are divided at a vertex that is off by up
+/// to the gap, and a thin face lies between, as CAD faces that do not quite meet are sewn.
 TriMesh with_gaps(TriMesh mesh, int gaps, double gap)
 {
     std::mt19937 random(11);
@@ -317,7 +322,8 @@ TEST(ThinFaces, ThatLookAsideVanishIntoTheirNeighbours)
     EXPECT_NEAR(area(even), 3200, 0.1);
     EXPECT_EQ(boundary_loops(even).size(), 1u);
     EXPECT_EQ(without_thin_faces(part, 1e-6, none).triangle, part.triangle); // none is that thin
-    std::vector<int> label(size_t(part.triangles()));                        // each of its own: no edge may be flipped
+    // each of its own: no edge may be flipped
+    std::vector<int> label(size_t(part.triangles()));
     std::iota(label.begin(), label.end(), 0);
     const int faces = without_thin_faces(part, 5e-3, label).triangles();
     EXPECT_EQ(label.size(), size_t(faces));
@@ -350,7 +356,8 @@ TEST(Remesh, OneThreadOrTwoGiveTheSameBits)
     EXPECT_EQ(one.distance, two.distance);
 }
 
-/// A half ring in the plane with a slit along its middle, `width` wide, each of whose banks has its own vertices.
+/// A half ring in the plane with a slit along its middle, `width` wide, each of whose banks has its
+/// own vertices.
 TriMesh slit_ring(double width, int around)
 {
     constexpr int across = 20, middle = across / 2;

@@ -46,7 +46,8 @@ TEST(TotalCurvature, OfASaddleAddsWhatIsNegative)
         const double x = 2 * s - 1, y = 2 * t - 1;
         return Eigen::Vector3d(x, y, bend * x * y);
     });
-    double expected = 0; // K dA over the dual cells of the vertices off the boundary, by the middle of each
+    double expected = 0; // K dA over the dual cells of the vertices off the boundary, by the middle
+                         // of each
     for (int i = 1; i < cells; ++i)
         for (int j = 1; j < cells; ++j) {
             const double h = 2.0 / cells, x = i * h - 1, y = j * h - 1;

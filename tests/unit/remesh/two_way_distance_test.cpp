@@ -28,7 +28,8 @@ void expect_bounds_hold(const MeshDistance& distance, const TriMesh& from, const
     }
 }
 
-/// After every change a new measure of all is the independent truth for what only measures again what is near to the change.
+/// After every change a new measure of all is the independent truth for what only measures again
+/// what is near to the change.
 TEST(TwoWayDistance, AfterChangesItIsWhatMeasuringAllAgainGives)
 {
     std::mt19937 random(8);

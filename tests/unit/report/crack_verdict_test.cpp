@@ -8,7 +8,8 @@ using testing::HasSubstr;
 namespace spia {
 namespace {
 
-/// Two triangles, each stretched in one direction by an engineering strain; the limit is the same at every minor strain.
+/// Two triangles, each stretched in one direction by an engineering strain; the limit is the same
+/// at every minor strain.
 Session stretched(double first, double second, std::optional<double> limit)
 {
     Session session;

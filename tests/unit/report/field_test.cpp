@@ -135,7 +135,8 @@ TEST(Field, OfASolvedPartAgreesWithVolumeConstancyAndKnownUnits)
                 EXPECT_TRUE(all.allFinite()) << field.name;
             }
     }
-    // The sheet keeps its volume: where the area grows the thickness shrinks, and both strains add up.
+    // The sheet keeps its volume: where the area grows the thickness shrinks, and both strains add
+    // up.
     const Eigen::ArrayXd ratio = 1 - values(session, Field::thinning, true).array() / 100;
     const Eigen::ArrayXd change = values(session, Field::area_change, true).array() / 100;
     EXPECT_LT(((1 + change) * ratio - 1).abs().maxCoeff(), 1e-6);

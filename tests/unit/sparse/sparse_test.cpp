@@ -18,7 +18,8 @@ struct Assembled {
     Eigen::MatrixXd dense;
 };
 
-/// Random element matrices on a small mesh; with `definite` their sum is symmetric positive definite.
+/// Random element matrices on a small mesh; with `definite` their sum is symmetric positive
+/// definite.
 Assembled random_matrix(bool definite)
 {
     const TriMesh mesh = shapes::rectangle(4, 3, 4, 3);

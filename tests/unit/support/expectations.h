@@ -18,7 +18,8 @@ inline int euler_characteristic(const TriMesh& mesh)
     return mesh.vertices() - int(edge_lengths(mesh).size()) + mesh.triangles();
 }
 
-/// A proper surface (halfedges() throws otherwise) with this many boundary loops and this Euler characteristic.
+/// A proper surface (halfedges() throws otherwise) with this many boundary loops and this Euler
+/// characteristic.
 inline void expect_topology(const TriMesh& mesh, size_t loops, int euler)
 {
     ASSERT_NO_THROW(halfedges(mesh));
@@ -39,8 +40,8 @@ inline void expect_well_shaped(const TriMesh& mesh, double share, double least_d
     EXPECT_GE(angle.minCoeff(), least_deg);
 }
 
-/// The least z of the faces' unit normals: positive for a height field, 0 with vertical walls, negative with
-/// undercuts.
+/// The least z of the faces' unit normals: positive for a height field, 0 with vertical walls,
+/// negative with undercuts.
 inline double least_upward(const TriMesh& mesh)
 {
     const Eigen::Matrix3Xd normal = area_vectors(mesh).colwise().normalized();

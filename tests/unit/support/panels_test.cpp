@@ -48,7 +48,8 @@ TEST(InnerPanel, DrawWallHasItsAngle)
                      ? vectors.col(f).norm()
                      : 0;
     const double around = 4 * (245 + 145) - 8 * 50 + 2 * pi * (50 + 23 / 2.0); // middle of the wall
-    EXPECT_NEAR(steep, around * 35.6, 0.15 * around * 35.6); // the flat part of the wall is 35.6 mm high
+    // the flat part of the wall is 35.6 mm high
+    EXPECT_NEAR(steep, around * 35.6, 0.15 * around * 35.6);
 }
 
 TEST(Fender, HasOneBoundaryWithFourCorners)
@@ -77,7 +78,8 @@ TEST(Fender, FlangeIsBentByItsAngle)
 {
     const TriMesh mesh = fender({.flange_angle_deg = 85}).mesh;
     const Eigen::Matrix3Xd normal = area_vectors(mesh).colwise().normalized();
-    EXPECT_GT(normal.row(2).minCoeff(), -0.5); // the skin's slope at its edge adds to the flange's angle
+    EXPECT_GT(normal.row(2).minCoeff(), -0.5); // the skin's slope at its edge adds to the flange's
+                                               // angle
     EXPECT_LT(normal.row(2).minCoeff(), 0.1);
 }
 

@@ -46,7 +46,8 @@ TEST(Shapes, MeshOfAnUndersampledSurfaceIsStillAHeightField)
     square.high = {200, 200};
     square.corners = {{0, 0}, {200, 0}, {200, 200}, {0, 200}};
     square.distance = [](const Eigen::Vector2d& p) { return box_distance(p, {100, 100}, {100, 100}, 0); };
-    const auto egg_crate = [](const Eigen::Vector2d& p) { // slopes up to 76 degrees, a wave is two to six edges long
+    const auto egg_crate = [](const Eigen::Vector2d& p) { // slopes up to 76 degrees, a wave is two
+                                                          // to six edges long
         return Eigen::Vector3d(p.x(), p.y(), 25 * std::sin(p.x() / 6) * std::sin(p.y() / 6));
     };
     for (int n : {3000, 6000, 12000}) {

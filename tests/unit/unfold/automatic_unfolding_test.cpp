@@ -177,7 +177,8 @@ TEST(AutomaticUnfolding, AStepThatDoesNotConvergeIsPlannedAnewOnlyIfThatConverge
     EXPECT_TRUE(better.run.states[0].converged);
     ASSERT_FALSE(better.sequence.notes.empty());
     EXPECT_NE(better.sequence.notes.back().find("did not converge"), std::string::npos);
-    const AutomaticUnfolding no_better = unfolded("needles", 4); // on this mesh nothing converges to the tolerance
+    // on this mesh nothing converges to the tolerance
+    const AutomaticUnfolding no_better = unfolded("needles", 4);
     EXPECT_EQ(no_better.sequence.steps.size(), 3u);
     EXPECT_EQ(no_better.run.states.size(), 3u);
     EXPECT_TRUE(no_better.run.blank);
@@ -188,8 +189,8 @@ TEST(AutomaticUnfolding, AStepThatDoesNotConvergeIsPlannedAnewOnlyIfThatConverge
 
 TEST(AutomaticUnfolding, AStepWithoutAResultIsPlannedAnew)
 {
-    // Allowed to be far beside its plane, the flat-ish middle carries the flanges; the step itself refuses that. The long flange
-    // could be the root, too: it must not become it.
+    // Allowed to be far beside its plane, the flat-ish middle carries the flanges; the step itself
+    // refuses that. The long flange could be the root, too: it must not become it.
     const TriMesh part = crowned_panel(70).mesh;
     const BendMap map = find_bends(part);
     const SequenceOptions loose{.distance = 0.08};

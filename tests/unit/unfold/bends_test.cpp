@@ -31,7 +31,8 @@ std::ostream& operator<<(std::ostream& out, const BentProfile& shape) { return o
 
 class Profiles : public testing::TestWithParam<BentProfile> {};
 
-/// Whether two labellings split the faces alike. @param face face f of the first is face[f] of the second
+/// Whether two labellings split the faces alike. @param face face f of the first is face[f] of the
+/// second
 void expect_same_split(const Eigen::VectorXi& first, const Eigen::VectorXi& second, const std::vector<int>& face)
 {
     std::map<int, int> there, back;
@@ -84,7 +85,8 @@ TEST_P(Profiles, AreSplitAtTheirArcsWhateverTheirAngle)
         EXPECT_GE(bend.b, 0) << "joins two regions";
         EXPECT_NEAR(bend.length, shape.length, 1e-6 * shape.length);
         const auto like = std::find_if(arcs.begin(), arcs.end(), [&](const auto* arc) {
-            const double angle = -(arc->to - arc->from) * arc->curvature; // to the left, where the outer side is
+            // to the left, where the outer side is
+            const double angle = -(arc->to - arc->from) * arc->curvature;
             return std::abs(bend.angle - angle) < 0.02 && std::abs(bend.radius * std::abs(arc->curvature) - 1) < 0.12;
         });
         EXPECT_NE(like, arcs.end()) << "no arc turns by " << bend.angle << " over " << bend.radius << " mm";
@@ -166,7 +168,8 @@ TEST(Bends, TheSplitDependsNeitherOnNumbersNorOnPlaceAndSize)
 
 TEST(Bends, FlatsOfTwoTrianglesAndOfThousandsAreTheSameRegions)
 {
-    const auto channel = [](int rows, int cells) { // of flats 60 x 200 and 30 x 200 with radii of 5 in six facets
+    const auto channel = [](int rows, int cells) { // of flats 60 x 200 and 30 x 200 with radii of 5
+                                                   // in six facets
         const Profile profile =
             Profile({0, 0}, 0).straight(30).bend(5, pi / 2).straight(60).bend(5, -pi / 2).straight(30);
         std::vector<double> s = {0};
@@ -210,7 +213,8 @@ TEST(Bends, AShallowEdgeBetweenFlatsIsNoBendInACoarseMeshNorInAFineOne)
 
 TEST(Bends, TheLengthOfABendIsThatAlongItThoughTheMeshZigzags)
 {
-    const BendMap map = find_bends(shapes::perforated_channel().mesh); // two bends whole, one whole, one cut by holes
+    // two bends whole, one whole, one cut by holes
+    const BendMap map = find_bends(shapes::perforated_channel().mesh);
     ASSERT_EQ(map.regions.size(), 5u);
     for (size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(map.bends[k].length, 200, 2);
@@ -241,7 +245,8 @@ TEST(Bends, ACurvedBendLineHasTheRadiusOfItsProfileAndTheLengthOfItsArc)
     ASSERT_EQ(map.regions.size(), 3u);
     ASSERT_EQ(map.bends.size(), 2u);
     EXPECT_NEAR(std::abs(map.bends[0].angle), pi / 2, 0.03);
-    EXPECT_NEAR(map.bends[0].radius, 6, 0.3); // area over the mean border: the arc's middle lies a little farther out
+    EXPECT_NEAR(map.bends[0].radius, 6, 0.3); // area over the mean border: the arc's middle lies a
+                                              // little farther out
     EXPECT_NEAR(map.bends[0].length, pi / 3 * 163, 1);
     EXPECT_NEAR(map.bends[1].radius, 4, 0.3);
     EXPECT_NEAR(map.bends[1].length, pi / 3 * 168, 1);
@@ -299,7 +304,8 @@ TEST(Bends, NoiseOfAScanMakesNoRegions)
 TEST(Bends, AnExactMeshThatIsCoarseAtItsBendsIsNoScan)
 {
     int rough = 0;
-    for (const shapes::BentShape& shape : shapes::bent_family(600, 6)) { // bends of 90 degrees by two rows of faces
+    // bends of 90 degrees by two rows of faces
+    for (const shapes::BentShape& shape : shapes::bent_family(600, 6)) {
         const TriMesh part = shape.make().mesh;
         rough += sheet_turns(part).roughness > 0.01;
         EXPECT_FALSE(find_bends(part).smoothed) << shape.name();

@@ -34,7 +34,8 @@ TriMesh turned_over(TriMesh part)
     return part;
 }
 
-/// Greatest difference of an edge's length, and least area of a face in the development against that in space.
+/// Greatest difference of an edge's length, and least area of a face in the development against
+/// that in space.
 void expect_development(const TriMesh& part, const TargetSurface& face, double chord)
 {
     Eigen::Matrix2Xd flat(2, part.vertices());
@@ -104,7 +105,8 @@ TEST(FitTarget, AConeIsFoundWithItsApexAndAngle)
 
 TEST(FitTarget, NoGeneratorNeedsToBeAnEdge)
 {
-    // A plate whose vertices are moved about at random, laid on the face: its triangles are chords in all directions.
+    // A plate whose vertices are moved about at random, laid on the face: its triangles are chords
+    // in all directions.
     TriMesh plate = shapes::rectangle(60, 50, 20, 16);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> little(-0.8, 0.8);
@@ -149,7 +151,8 @@ TEST(FitTarget, ARegionOfAPartCountsAloneAndADomeIsNone)
 {
     const TriMesh hat = moved(shapes::hat_channel({.triangles = 3000}).mesh);
     EXPECT_FALSE(fit_target(hat, all_faces(hat)));
-    const TriMesh flat = shapes::hat_channel({.triangles = 3000}).mesh; // the same faces before they were moved
+    // the same faces before they were moved
+    const TriMesh flat = shapes::hat_channel({.triangles = 3000}).mesh;
     const double top = flat.position.row(2).maxCoeff();
     std::vector<int> faces;
     for (int f = 0; f < flat.triangles(); ++f)

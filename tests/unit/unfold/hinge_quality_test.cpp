@@ -49,7 +49,8 @@ TEST(HingeQuality, TheFirstFacetOfABendIsNoCrease)
     const auto turned = [&](double by) { return hinge_quality(tilted(shape.base, by), part, pick.fixed, pieces); };
     EXPECT_NEAR(turned(0).angle, 0, 1e-12);
     EXPECT_FALSE(creased(turned(0), diagonal));
-    for (const double by : {2., 4., 30.}) { // the flange goes up: the target turned down is turned away from it
+    for (const double by : {2., 4., 30.}) { // the flange goes up: the target turned down is turned
+                                            // away from it
         EXPECT_NEAR(turned(by * degree).angle, by * degree, 1e-12);
         EXPECT_EQ(creased(turned(by * degree), diagonal), by > 3);
         EXPECT_LT(turned(by * degree).distance_mm, 1e-12);
@@ -58,7 +59,8 @@ TEST(HingeQuality, TheFirstFacetOfABendIsNoCrease)
 
 TEST(HingeQuality, AFlatNeighbourTakesNothingOffAndASharpEdgeBesideTheHingeNeither)
 {
-    // A row of squares of 10 mm along x: one to be freed, one that stays, and a third that stands upright on its far edge.
+    // A row of squares of 10 mm along x: one to be freed, one that stays, and a third that stands
+    // upright on its far edge.
     const TriMesh part =
         shapes::patchwork({{{Eigen::Vector3d(0, 0, 0), {10, 0, 0}, {10, 20, 0}, {0, 20, 0}}, 1, 2},
                            {{Eigen::Vector3d(10, 0, 0), {20, 0, 0}, {20, 20, 0}, {10, 20, 0}}, 1, 2},

@@ -35,7 +35,8 @@ TriMesh together(const TriMesh& a, const TriMesh& b)
 
 int places(const TriMesh& a, const TriMesh& b) { return landed_overlap(together(a, b), ground, 1e-9).places; }
 
-/// A plate with a slot from its front edge and a flap bent up from either side of the slot; one more along the edge at the back.
+/// A plate with a slot from its front edge and a flap bent up from either side of the slot; one
+/// more along the edge at the back.
 TriMesh slotted(double flap, double back = 0)
 {
     const double h = 20; // half the width of the slot
@@ -94,7 +95,8 @@ TEST(LandedOverlap, NamesAPlaceNearWhereItIs)
     const TriMesh both = together(rectangle(0, 0, 100, 60), rectangle(90, 10, 50, 20));
     const LandedOverlap over = landed_overlap(both, ground, 1e-9);
     ASSERT_GT(over.places, 0);
-    EXPECT_NEAR(over.first.x(), 100, 26); // the middle of an edge that crosses; edges are up to 25 mm long
+    EXPECT_NEAR(over.first.x(), 100, 26); // the middle of an edge that crosses; edges are up to 25
+                                          // mm long
     EXPECT_NEAR(over.first.y(), 20, 21);
 }
 
@@ -106,7 +108,8 @@ TEST(LandedOverlap, CountsOnlyWhatLiesOnTheTargetWithItsOuterSideOut)
     turned.triangle.row(0).swap(turned.triangle.row(1));
     EXPECT_EQ(places(base, turned), 0); // waits to be unfolded, as a hem does
     const TriMesh low = shapes::patchwork({{{{{30, 20, 0}, {60, 20, 0}, {60, 20.05, 0.2}, {30, 20.05, 0.2}}}, 4, 1}});
-    EXPECT_EQ(landed_overlap(together(base, low), ground, 0.3).places, 0); // a wall lower than what the target allows
+    // a wall lower than what the target allows
+    EXPECT_EQ(landed_overlap(together(base, low), ground, 0.3).places, 0);
 }
 
 TEST(LandedOverlap, FacesThatMeetInACornerDoNotLieOnEachOther)

@@ -215,7 +215,8 @@ TEST(RingChart, ARingThatIsHeldOnBothSidesLiesBetweenThem)
 
 TEST(RingChart, ATubeThatIsCutOpenIsLaidOnItsDevelopmentAndUnrolled)
 {
-    // Cut along a seam it ends in an open strip; of small strain its blank is about that of the closed ring, laid open.
+    // Cut along a seam it ends in an open strip; of small strain its blank is about that of the
+    // closed ring, laid open.
     FlaredTube tube{.lean = 0.35, .end = 12};
     const TriMesh closed = tube.mesh();
     std::vector<std::array<int, 2>> seam;
@@ -224,7 +225,8 @@ TEST(RingChart, ATubeThatIsCutOpenIsLaidOnItsDevelopmentAndUnrolled)
     const CutPart cut = cut_along(closed, seam);
     ASSERT_TRUE(surface_type(cut.mesh).sheet());
     ASSERT_EQ(surface_type(cut.mesh).loops, 1);
-    for (const double taper : {0., 0.3, 0.8}) { // of the last the development is most of a turn wide
+    for (const double taper : {0., 0.3, 0.8}) { // of the last the development is most of a turn
+                                                // wide
         tube.taper = taper;
         TriMesh open = cut.mesh;
         open.position = tube.mesh().position(Eigen::all, cut.source);
@@ -255,7 +257,8 @@ TEST(RingChart, ATubeThatIsCutOpenIsLaidOnItsDevelopmentAndUnrolled)
         EXPECT_TRUE(state.converged) << state.reason;
     ASSERT_TRUE(run.blank);
     EXPECT_EQ(run.flipped, 0);
-    const Eigen::Matrix2Xd& blank = run.blank->position; // the tube's own end is straight, as long as it is around
+    const Eigen::Matrix2Xd& blank = run.blank->position; // the tube's own end is straight, as long
+                                                         // as it is around
     const auto opposite = std::find(cut.source.begin(), cut.source.end(), FlaredTube::around / 2);
     const auto way = [&](int v) { return (blank.col(0) - blank.col(v)).norm(); };
     ASSERT_EQ(cut.source[1], 0) << "the copy across the seam";

@@ -73,7 +73,8 @@ UnfoldSequence proposed(const TriMesh& part, const SequenceOptions& options = {}
     return propose_sequence(part, find_bends(part), options);
 }
 
-TriMesh joggled_box() // walls, their radii and the ball corners between them, with a flange all around
+TriMesh joggled_box() // walls, their radii and the ball corners between them, with a flange all
+                      // around
 {
     return shapes::square_cup({.punch_radius = 5, .die_radius = 5, .triangles = 6000});
 }
@@ -105,7 +106,8 @@ TEST(Sequence, EveryPickMovesOnlyWhatMayMove)
 
 TEST(Sequence, EndsFlatAlsoWhereTheRootIsOnlyNearlyAPlane)
 {
-    const TriMesh part = shapes::round_cup({.triangles = 1500}); // the first row of the bend belongs to the bottom
+    // the first row of the bend belongs to the bottom
+    const TriMesh part = shapes::round_cup({.triangles = 1500});
     FlattenOptions steel;
     steel.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     for (const double off : {0., 1e-6, 1e-5, 1e-4}) { // mm
@@ -119,8 +121,8 @@ TEST(Sequence, EndsFlatAlsoWhereTheRootIsOnlyNearlyAPlane)
 
 TEST(Sequence, AHatIsLaidOutFromItsFlangesInwards)
 {
-    const TriMesh part =
-        shapes::hat_channel({.triangles = 3000}).mesh; // regions: 1 top, 2 and 3 walls, 4 and 5 flanges
+    // regions: 1 top, 2 and 3 walls, 4 and 5 flanges
+    const TriMesh part = shapes::hat_channel({.triangles = 3000}).mesh;
     EXPECT_EQ(step_names(proposed(part)),
               (std::vector<std::string>{"region 4 onto region 2", "region 5 onto region 3",
                                         "region 2, region 3, region 4, region 5 onto region 1"}));
@@ -129,7 +131,8 @@ TEST(Sequence, AHatIsLaidOutFromItsFlangesInwards)
     EXPECT_EQ(one_by_one.steps[2].name, "region 2, region 4 onto region 1");
     EXPECT_EQ(one_by_one.steps[3].name, "region 3, region 5 onto region 1");
     EXPECT_TRUE(one_by_one.notes.empty());
-    const UnfoldSequence on_a_flange = proposed(part, {.root = 3}); // region 4: then all goes one way
+    // region 4: then all goes one way
+    const UnfoldSequence on_a_flange = proposed(part, {.root = 3});
     ASSERT_EQ(on_a_flange.steps.size(), 4u);
     EXPECT_EQ(on_a_flange.steps[0].name, "region 5 onto region 3");
     EXPECT_EQ(on_a_flange.steps[3].carrier, 3);

@@ -61,7 +61,8 @@ TEST(SheetLines, SharpEdgesAreBendLinesThemselves)
 {
     const TriMesh box = shapes::lipped_box({.joined = false});
     const BendMap map = find_bends(box);
-    const Eigen::Matrix2Xd seen = box.position.topRows<2>(); // from below: enough for the edges of the bottom
+    const Eigen::Matrix2Xd seen = box.position.topRows<2>(); // from below: enough for the edges of
+                                                             // the bottom
     const std::vector<SheetLine> lines = bend_lines(box, map, seen);
     ASSERT_EQ(lines.size(), 8u);
     EXPECT_EQ(lines[0].name, "bend 1");
@@ -161,7 +162,8 @@ TEST(SheetLines, AWayAcrossAHoleLeavesTheSheetThoughItsEndsDoNot)
 
 TEST(SheetLines, ARoundTripOverAStretchedBlankComesBackToTheDrawnLine)
 {
-    // A dome is not developable: lengths change, places must not. The map is any that is one to one.
+    // A dome is not developable: lengths change, places must not. The map is any that is one to
+    // one.
     const TriMesh part = shapes::dome({.triangles = 2000}).mesh;
     Eigen::Matrix2Xd flat = part.position.topRows<2>();
     for (auto p : flat.colwise())
@@ -209,7 +211,8 @@ TEST(SheetLines, OfManyLinesOnlyThoseThatLeaveTheSheetAreLeftOut)
 
 TEST(SheetLines, ALineThatJumpsFromOneFlangeToAnotherIsLeftOut)
 {
-    // A hem of two layers 0.1 mm apart: a line from one to the other is near the part everywhere, but no line on the blank.
+    // A hem of two layers 0.1 mm apart: a line from one to the other is near the part everywhere,
+    // but no line on the blank.
     const shapes::DevelopablePart hem =
         shapes::extruded(Profile({0, 0}, 0).straight(40).bend(0.05, pi).straight(30), 60, 3000);
     const Eigen::Vector3d below(20, 20, 0), above(20, 30, 0.1);

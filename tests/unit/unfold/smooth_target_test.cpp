@@ -26,12 +26,14 @@ FlattenOptions steel()
     return options;
 }
 
-/// Over [-50, 50]^2 of the xy plane: the spline with the coefficients of a polynomial of the second degree is that polynomial.
+/// Over [-50, 50]^2 of the xy plane: the spline with the coefficients of a polynomial of the second
+/// degree is that polynomial.
 HeightFace polynomial(double a, double b, double c, double xx, double xy, double yy)
 {
     HeightFace face{{0, 0, 0}, Eigen::Matrix<double, 3, 2>::Identity(), {-50, -50}, 10, Eigen::MatrixXd(13, 13)};
     for (int i = 0; i < 13; ++i)
-        for (int j = 0; j < 13; ++j) { // Marsden's identity: x^2 has the coefficient x_i^2 - h^2 / 3
+        for (int j = 0; j < 13; ++j) { // Marsden's identity: x^2 has the coefficient x_i^2 - h^2 /
+                                       // 3
             const double x = -60 + 10 * i, y = -60 + 10 * j;
             face.coefficient(i, j) = a + b * x + c * y + xx * (x * x - 100. / 3) + xy * x * y + yy * (y * y - 100. / 3);
         }
@@ -67,7 +69,8 @@ TEST(HeightFace, IsItsPolynomialInsideAndGoesStraightOnOutside)
     }
     const double slope = b + 2 * xx * 50 + xy * 20;
     EXPECT_NEAR(placed(face, {80, 20})[2], value(50, 20) + 30 * slope, 1e-11);
-    // The lengths are those of small ways of the face, and the normal is square to them, inside and outside.
+    // The lengths are those of small ways of the face, and the normal is square to them, inside and
+    // outside.
     for (const Eigen::Vector2d& at : {Eigen::Vector2d(12, -20), Eigen::Vector2d(70, 10), Eigen::Vector2d(-80, 90)})
         for (const TargetSurface& either : {face, turned_over(face)}) {
             Eigen::Matrix<double, 3, 2> J;
@@ -119,7 +122,8 @@ TEST(FitHeight, GoesThroughASmoothRegionAndOnBesideItWithItsTangent)
 
 TEST(FitHeight, AcrossAHoleItIsAThinPlate)
 {
-    // A plate bent by its edges alone is biharmonic; the fourth harmonic has all fourth derivatives, those of x and y together, too.
+    // A plate bent by its edges alone is biharmonic; the fourth harmonic has all fourth
+    // derivatives, those of x and y together, too.
     TriMesh frame = shapes::plate({.width = 100, .height = 100, .holes = {{{50, 50}, 30}}, .triangles = 6000});
     const auto height = [](double x, double y) {
         x -= 50;
@@ -151,7 +155,8 @@ TEST(SmoothTarget, OfNoHeightIsThePlaneBitByBitAndOfConstantSlopeThePlaneItIs)
     const UnfoldStepResult level = unfold_step(flange.part.mesh, flange.part.mesh.position, pick, steel());
     EXPECT_TRUE(level.converged());
     EXPECT_LT(furthest(level.position, truth.position), 1e-10);
-    // The wall of a cup: strained. The plane z = 0 told as a height over a plane that leans by 50 degrees.
+    // The wall of a cup: strained. The plane z = 0 told as a height over a plane that leans by 50
+    // degrees.
     const shapes::AxisymmetricPart cup = shapes::sharp_cup({.triangles = 1500});
     UnfoldPick wall;
     for (int f = 0; f < cup.mesh.triangles(); ++f)
@@ -170,7 +175,8 @@ TEST(SmoothTarget, OfNoHeightIsThePlaneBitByBitAndOfConstantSlopeThePlaneItIs)
 
 TEST(SmoothTarget, ACylinderToldAsAHeightIsTheCylinderToSecondOrder)
 {
-    // A strip around 0.6 radians of a cylinder, then a flat flange down; both targets are exact where it lands.
+    // A strip around 0.6 radians of a cylinder, then a flat flange down; both targets are exact
+    // where it lands.
     const double radius = 60;
     std::vector<double> h, error;
     for (const int n : {6, 12, 24}) {
@@ -182,7 +188,8 @@ TEST(SmoothTarget, ACylinderToldAsAHeightIsTheCylinderToSecondOrder)
                 x += (arc - bend) * Eigen::Vector3d(std::cos(1.2), 0, -std::sin(1.2));
             return x;
         });
-        // Over the xy plane: a dense spline through z = sqrt(r^2 - x^2) - r by its nodal values would do; the fit of a fine strip does.
+        // Over the xy plane: a dense spline through z = sqrt(r^2 - x^2) - r by its nodal values
+        // would do; the fit of a fine strip does.
         const TriMesh fine = shapes::grid_surface({400, 20}, [&](double u, double v) {
             const double angle = -0.7 + 1.15 * u;
             return Eigen::Vector3d(radius * std::sin(angle), -5 + 30 * v, radius * (std::cos(angle) - 1));
@@ -210,7 +217,8 @@ TEST(SmoothTarget, ACylinderToldAsAHeightIsTheCylinderToSecondOrder)
 
 TEST(SmoothTarget, WhatIsOnItAlreadyStaysAndWhatWasBentComesBack)
 {
-    // Both pieces of a skin curved both ways; the outer one turned about the straight line x = 60 is a part of which it comes.
+    // Both pieces of a skin curved both ways; the outer one turned about the straight line x = 60
+    // is a part of which it comes.
     TriMesh skin = shapes::rectangle(80, 50, 40, 25);
     for (int v = 0; v < skin.vertices(); ++v) {
         const double x = skin.position(0, v) - 30, y = skin.position(1, v) - 25;
@@ -229,7 +237,8 @@ TEST(SmoothTarget, WhatIsOnItAlreadyStaysAndWhatWasBentComesBack)
     EXPECT_TRUE(same.converged()) << same.piece[0].report.reason;
     EXPECT_LT(furthest(same.position, skin.position), 0.01);
     EXPECT_LT(same.face.strain_equivalent.maxCoeff(), 2e-3);
-    // Without a target one is made of the fixed region; beside it it goes straight on where the skin is curved.
+    // Without a target one is made of the fixed region; beside it it goes straight on where the
+    // skin is curved.
     pick.target.reset();
     const UnfoldStepResult own = unfold_step(skin, skin.position, pick, steel());
     EXPECT_EQ(name(own.target.face), "smooth");
@@ -253,12 +262,14 @@ TEST(SmoothTarget, TheFlangeOfAFenderGoesOnWithItsSkin)
     EXPECT_LT(result.target.distance_mm, 0.1);
     EXPECT_LT(result.target.angle, 0.05);
     EXPECT_LT(result.face.strain_equivalent.maxCoeff(), 0.04);
-    // In the middle its edge is as far beyond the bend as the flange is long, down the slope that the skin has there.
+    // In the middle its edge is as far beyond the bend as the flange is long, down the slope that
+    // the skin has there.
     const double length = 5 * 30 * pi / 180 + 18, slope = 240. / 700;
     int edge = 0;
     for (int v = 0; v < fender.mesh.vertices(); ++v)
         if (fender.parameter(1, v) > bend + length - 1e-6 && std::abs(fender.parameter(0, v)) < 150) {
-            EXPECT_NEAR(result.position(1, v), bend + length / std::hypot(1, slope), 0.3); // the bend is one chord
+            // the bend is one chord
+            EXPECT_NEAR(result.position(1, v), bend + length / std::hypot(1, slope), 0.3);
             ++edge;
         }
     EXPECT_GT(edge, 5);

@@ -59,7 +59,8 @@ struct QuarterDish {
     }
 };
 
-/// A strip along `place`, from column to column: up to `bend` the columns are fixed, those beyond freed.
+/// A strip along `place`, from column to column: up to `bend` the columns are fixed, those beyond
+/// freed.
 struct Strip {
     static constexpr int columns = 40, rows = 4, bend = 10;
     TriMesh part;
@@ -144,7 +145,8 @@ TEST(TargetFriction, FacesJoinedToNothingAreThoseOfFlatten)
 
 TEST(TargetFriction, AWallLaidDownCarriesWhatRubsBeyondEachPlace)
 {
-    // The upright wall slips from the die towards the bend; with r = 0 it does not narrow: T = sides mu p (L - s).
+    // The upright wall slips from the die towards the bend; with r = 0 it does not narrow: T =
+    // sides mu p (L - s).
     Strip strip = upright();
     const FlattenOptions options = steel(1e-6);
     const double length = (Strip::columns - Strip::bend) * cell, p = 20;
@@ -154,7 +156,8 @@ TEST(TargetFriction, AWallLaidDownCarriesWhatRubsBeyondEachPlace)
         const UnfoldStepResult result = unfold_step(strip.part, strip.part.position, strip.pick, options);
         ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
         double longest = 0;
-        for (Eigen::Index k = 0; k < Eigen::Index(result.freed.size()); k += 2) { // the two triangles of a cell
+        // the two triangles of a cell
+        for (Eigen::Index k = 0; k < Eigen::Index(result.freed.size()); k += 2) {
             const double s = (Strip::column(result.freed[size_t(k)]) - Strip::bend + 0.5) * cell;
             const double expected = strip_strain(options, 2 * 0.12 * p * (length - s));
             longest = std::max(longest, expected);
@@ -172,7 +175,8 @@ TEST(TargetFriction, AWallLaidDownCarriesWhatRubsBeyondEachPlace)
 
 TEST(TargetFriction, TheSlipIsThatOfTheStateHoweverThePartIsBent)
 {
-    // The wall's upper half is bent back in the part. A step before has laid it along the wall: then the wall is one.
+    // The wall's upper half is bent back in the part. A step before has laid it along the wall:
+    // then the wall is one.
     const int lip = 25;
     Strip strip([&](double k, double v) {
         const double up = (std::clamp(k, double(Strip::bend), double(lip)) - Strip::bend) * cell, back = 100 * pi / 180,
@@ -199,7 +203,8 @@ TEST(TargetFriction, TheSlipIsThatOfTheStateHoweverThePartIsBent)
 
 TEST(TargetFriction, OnACylinderOrAConeItIsThatOnThePlaneOfTheirDevelopment)
 {
-    // Walls square to the face along a generator: where their feet are they come from, on all three faces alike.
+    // Walls square to the face along a generator: where their feet are they come from, on all three
+    // faces alike.
     const FlattenOptions options = steel(1.77);
     Strip flat = upright();
     flat.pick.friction = rubbing(20);
@@ -235,7 +240,8 @@ TEST(TargetFriction, OnACylinderOrAConeItIsThatOnThePlaneOfTheirDevelopment)
         const Eigen::Vector3d out(std::cos(a), std::sin(a), 0), up(0, 0, 1), normal = s * -up + c * out;
         return Eigen::Vector3d(l * (c * up + s * out) + wall * normal);
     });
-    for (int f = 0; f < coned.part.triangles(); ++f) // away from the axis and around it is the apex' way
+    for (int f = 0; f < coned.part.triangles(); ++f) // away from the axis and around it is the
+                                                     // apex' way
         coned.part.triangle.col(f).tail<2>().reverseInPlace();
     coned.pick.friction = rubbing(20);
     const UnfoldStepResult on_cone = unfold_step(coned.part, coned.part.position, coned.pick, options);
@@ -252,8 +258,9 @@ TEST(TargetFriction, OnACylinderOrAConeItIsThatOnThePlaneOfTheirDevelopment)
 
 TEST(TargetFriction, SheetRolledOnItsTargetSlipsInTheAxesOfTheFlatPart)
 {
-    // In the part it is flat and lies anywhere; in the state it goes around a cylinder or a cone by more than half a turn from its
-    // held edge on: each way of the development is the same way of the flat part.
+    // In the part it is flat and lies anywhere; in the state it goes around a cylinder or a cone by
+    // more than half a turn from its held edge on: each way of the development is the same way of
+    // the flat part.
     const int columns = 200, rows = 6;
     const Eigen::Matrix3d turn = shapes::random_rotation(5);
     for (const bool bulges : {true, false})
@@ -314,7 +321,8 @@ TEST(TargetFriction, TangentsAreTheDerivativeOfPlaces)
 
 TEST(TargetFriction, WhatTheSheetDoesNotBearIsReportedAsAShare)
 {
-    // A dish pulled by more than half of what tears it, and a solver that is soon tired: part of the friction it does find.
+    // A dish pulled by more than half of what tears it, and a solver that is soon tired: part of
+    // the friction it does find.
     QuarterDish dish;
     PlannedStep step;
     step.name = "wall";

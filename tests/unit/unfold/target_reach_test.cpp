@@ -19,7 +19,8 @@ protected:
     {
         options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
         step.name = "flange";
-        part.mesh.triangle = Eigen::Matrix3Xi(part.mesh.triangle.rowwise().reverse()); // the nearest faces last
+        // the nearest faces last
+        part.mesh.triangle = Eigen::Matrix3Xi(part.mesh.triangle.rowwise().reverse());
         for (int f = 0; f < part.mesh.triangles(); ++f)
             (part.flat(0, Eigen::all)(part.mesh.triangle.col(f)).mean() < shape.base ? step.pick.fixed
                                                                                      : step.pick.freed)
@@ -37,7 +38,8 @@ protected:
 
 TEST_F(TargetReachOfAFlange, IsItsFlatLengthAndFacesBeyondTheExtentHaveNoRoom)
 {
-    const double whole = part.flat.row(0).maxCoeff() - shape.base; // chords over the bend, and the flange
+    // chords over the bend, and the flange
+    const double whole = part.flat.row(0).maxCoeff() - shape.base;
     EXPECT_NEAR(run().states.at(0).reach.farthest_mm, whole, 1e-6);
     EXPECT_EQ(run().states[0].reach.without_room, 0) << "without an extent there is room for all";
     for (const double extent : {0.3, 0.7, 0.99, 1.01}) {

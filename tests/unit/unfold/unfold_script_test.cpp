@@ -44,12 +44,14 @@ double most_stretch(const TriMesh& part, const Eigen::Matrix2Xd& flat)
     return most;
 }
 
-/// The longest and the shortest side of a box around a flat shape along its own axes: a rectangle's.
+/// The longest and the shortest side of a box around a flat shape along its own axes: a
+/// rectangle's.
 Eigen::Vector2d sides(const Eigen::Matrix2Xd& flat)
 {
     const Eigen::Vector2d corner = flat.col(0);
     Eigen::Index far = 0;
-    (flat.colwise() - corner).colwise().norm().maxCoeff(&far); // a rectangle's diagonal, from a corner
+    // a rectangle's diagonal, from a corner
+    (flat.colwise() - corner).colwise().norm().maxCoeff(&far);
     const double diagonal = (flat.col(far) - corner).norm();
     double off = 0;
     const Eigen::Vector2d along = (flat.col(far) - corner) / diagonal;

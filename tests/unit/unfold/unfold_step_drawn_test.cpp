@@ -65,7 +65,8 @@ TEST(UnfoldStep, ACupsWallIsLaidAroundItsBottomByTheClosedForm)
 
 TEST(UnfoldStep, TheCollarOfAHoleIsLaidIntoTheHoleByTheClosedForm)
 {
-    // No force acts along the upright wall, so its rings are stretched around only: the cup's formula with the height negative.
+    // No force acts along the upright wall, so its rings are stretched around only: the cup's
+    // formula with the height negative.
     const double r = 1.77, m = r / (1 + r), radius = 40, height = 10;
     Eigen::Matrix2Xd meridian(2, 3);
     meridian << radius, radius, 70, /**/ -height, 0, 0;

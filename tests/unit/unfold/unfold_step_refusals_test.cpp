@@ -36,7 +36,8 @@ std::vector<int> counted(int from, int to)
 
 TEST(UnfoldStep, WhatCannotBeUnfoldedIsRefusedWithItsFace)
 {
-    // Two rows of faces in the plane, then four upright ones: faces 0 to 19, 20 to 39, ... row by row.
+    // Two rows of faces in the plane, then four upright ones: faces 0 to 19, 20 to 39, ... row by
+    // row.
     const TriMesh part = shapes::grid_surface({10, 6}, [](double u, double v) {
         return Eigen::Vector3d(60 * u, std::min(60 * v, 20.), std::max(60 * v - 20, 0.));
     });

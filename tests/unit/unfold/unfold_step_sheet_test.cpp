@@ -30,7 +30,8 @@ TEST(UnfoldStep, TailoredPiecesKeepTheirGaugeAndTheRollingDirectionItsWay)
         const bool in = std::binary_search(thick.begin(), thick.end(), rest[k]);
         EXPECT_NEAR(tailored.face.thickness[Eigen::Index(k)], in ? 1.5 : 0.8, 1e-6);
     }
-    // Planar anisotropy: the rim of a cup's wall has its waves along and across the rolling direction, wherever the cup stands.
+    // Planar anisotropy: the rim of a cup's wall has its waves along and across the rolling
+    // direction, wherever the cup stands.
     const shapes::SharpCup form{.triangles = 3000};
     const shapes::AxisymmetricPart cup = shapes::sharp_cup(form);
     const auto mean_along = [&](const Eigen::Vector3d& way, const Eigen::MatrixXd& laid) {
@@ -66,9 +67,11 @@ TEST(UnfoldStep, TailoredPiecesKeepTheirGaugeAndTheRollingDirectionItsWay)
     ears.direction = Eigen::Vector3d::UnitZ();
     const Eigen::Matrix2Xd blank = flatten(cup.mesh, ears).blank.position;
     EXPECT_NEAR(mean_along(x, blank) - mean_along(y, blank), along - across, 0.1 * std::abs(along - across));
-    EXPECT_GT(std::abs(along - across), 0.2);                                 // mm
-    EXPECT_NEAR(radius_along(y, y), along, 0.25 * std::abs(along - across));  // the mesh is no quarter
-    EXPECT_NEAR(radius_along(y, x), across, 0.25 * std::abs(along - across)); // the mesh is no quarter
+    EXPECT_GT(std::abs(along - across), 0.2); // mm
+    // the mesh is no quarter
+    EXPECT_NEAR(radius_along(y, y), along, 0.25 * std::abs(along - across));
+    // the mesh is no quarter
+    EXPECT_NEAR(radius_along(y, x), across, 0.25 * std::abs(along - across));
 }
 
 } // namespace spia

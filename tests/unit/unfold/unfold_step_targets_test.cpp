@@ -13,16 +13,19 @@ using namespace steps;
 
 TEST(UnfoldStep, AFlangeOnACylinderLandsOnTheCylindersOwnExtension)
 {
-    // A strip over most of a cylinder, then a bend towards the axis; its continuation is known: the arc goes on.
+    // A strip over most of a cylinder, then a bend towards the axis; its continuation is known: the
+    // arc goes on.
     const double radius = 40, length = 60;
     const int columns = 60, rows = 10;
     const double step = 0.05, chord = 2 * radius * std::sin(step / 2); // radians, mm
-    for (const double start : {0., 2.0, 3.1})                          // wherever the development would have been cut
+    // wherever the development would have been cut
+    for (const double start : {0., 2.0, 3.1})
         for (const bool inside : {false, true}) {
             const auto on_arc = [&](double k) {
                 return Eigen::Vector2d(radius * std::cos(start + k * step), radius * std::sin(start + k * step));
             };
-            const int bend = 40; // columns from here on leave the cylinder along the tangent turned by 70 degrees
+            const int bend = 40; // columns from here on leave the cylinder along the tangent turned
+                                 // by 70 degrees
             TriMesh part = shapes::grid_surface({columns, rows}, [&](double u, double v) {
                 const double k = std::round(u * columns);
                 Eigen::Vector2d at = on_arc(std::min(k, double(bend)));
@@ -88,7 +91,8 @@ TEST(UnfoldStep, AStripOnAConeGoesOnAroundItAndNotOverItsApex)
     // A strip that hangs from the small end is too long for what is left of the cone.
     const double chord = 60 * std::sin(half) * 0.2;
     TriMesh strip = shapes::grid_surface({10, 30}, [&](double u, double v) {
-        const double a = 0.2 * u, s = 130 - 200 * v; // on the cone up to 70, then straight down inside
+        const double a = 0.2 * u, s = 130 - 200 * v; // on the cone up to 70, then straight down
+                                                     // inside
         const double along = std::max(s, 70.);
         Eigen::Vector3d x =
             along * Eigen::Vector3d(std::sin(half) * std::cos(a), std::sin(half) * std::sin(a), -std::cos(half));

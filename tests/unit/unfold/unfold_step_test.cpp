@@ -110,7 +110,8 @@ TEST(UnfoldStep, AHemIsTurnedBackOntoItsWallAndThenDown)
     // A wall at 90 degrees whose lip is folded back flat onto it.
     const shapes::DevelopablePart part = shapes::hemmed_flange({.triangles = 3000});
     const shapes::HemmedFlange shape{};
-    const double wall = shape.base + 2 * shape.radius * 8 * std::sin(pi / 32); // any chord of the bend
+    // any chord of the bend
+    const double wall = shape.base + 2 * shape.radius * 8 * std::sin(pi / 32);
     const auto where = [&](const auto& is) { return faces_where(part.flat, part.mesh, is); };
     const std::vector<int> base = where([&](const Eigen::VectorXd&at) { return at[0] < shape.base; }),
                            rest = where([&](const Eigen::VectorXd&at) { return at[0] > shape.base; });

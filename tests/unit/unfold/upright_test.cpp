@@ -132,7 +132,8 @@ TEST(Upright, DoesNotDependOnHowThePartLayOrIsNumbered)
     std::mt19937 random(11);
     std::uniform_real_distribution<double> any(0, 1);
     for (int trial = 0; trial < 200; ++trial) {
-        // Brackets, flags, tapered strips: four to nine corners around the middle, some edges square to each other.
+        // Brackets, flags, tapered strips: four to nine corners around the middle, some edges
+        // square to each other.
         const int count = 4 + trial % 6;
         Eigen::Matrix2Xd rim(2, count);
         for (int k = 0; k < count; ++k) {

@@ -1,5 +1,5 @@
-// What of the user's would be lost is asked about, once the file that takes its place is read; and options that were changed in vain
-// go back.
+// What of the user's would be lost is asked about, once the file that takes its place is read; and
+// options that were changed in vain go back.
 #include <fstream>
 #include <gtest/gtest.h>
 

@@ -10,7 +10,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A box of unit length without one side, from outside; its faces by the sides: two each, in this order.
+/// A box of unit length without one side, from outside; its faces by the sides: two each, in this
+/// order.
 struct OpenBox {
     Eigen::Matrix3Xd place{3, 8};
     Eigen::Matrix3Xi triangle{3, 10};
@@ -36,7 +37,8 @@ glm::dvec3 viewer(const glm::dquat& turn) { return glm::mat3_cast(turn)[2]; }
 
 TEST(BestView, LooksAtTheSideThatIsAskedForFromTheUsualSideOfIt)
 {
-    const OpenBox box(1); // upside down: its bottom is open, and its faces are the sides from k = 0, 2, 3, 4, 5
+    const OpenBox box(1); // upside down: its bottom is open, and its faces are the sides from k =
+                          // 0, 2, 3, 4, 5
     const glm::dquat usual = look(Camera{}, StandardView::isometric).turn;
     const auto seen_from = [&](std::vector<int> faces) { return viewer(best_turn(box.triangle, {box.place}, faces)); };
     EXPECT_LT(glm::length(seen_from({0, 1}) - viewer(usual)), 1e-12) << "the top is seen from every corner above";
@@ -49,7 +51,8 @@ TEST(BestView, LooksAtTheSideThatIsAskedForFromTheUsualSideOfIt)
 
 TEST(BestView, WhatLiesInsideIsSeenThroughTheOpening)
 {
-    // A shelf in the middle of a box that is open on the right: from the corners to the right it is in sight.
+    // A shelf in the middle of a box that is open on the right: from the corners to the right it is
+    // in sight.
     OpenBox box(2);
     Eigen::Matrix3Xd place(3, 12);
     place << box.place,

@@ -264,7 +264,8 @@ TEST(Camera, OnTheWayItTurnsEvenlyAndByTheShorterSide)
     from.height = 50;
     to.height = 200;
     to.target = {10, 20, 30};
-    to.turn = -glm::angleAxis(glm::radians(80.), glm::normalize(glm::dvec3(1, 2, 3))); // the same turn, its other sign
+    // the same turn, its other sign
+    to.turn = -glm::angleAxis(glm::radians(80.), glm::normalize(glm::dvec3(1, 2, 3)));
     EXPECT_EQ(between(from, to, 0).height, 50);
     EXPECT_EQ(between(from, to, 0).target, from.target);
     EXPECT_NEAR(between(from, to, 1).height, 200, 1e-9);

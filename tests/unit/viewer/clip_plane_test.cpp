@@ -59,7 +59,8 @@ TEST(ClipPlane, KeepsTheLowerSideOrFlippedTheUpperOne)
         EXPECT_NEAR(cut(axis, 7)->height(9 * along), -2, 1e-12);
         EXPECT_NEAR(cut(axis, 7, true)->height(9 * along), 2, 1e-12);
     }
-    const auto slanted = kept_by({true, ClipAxis::view, 5, false, {3, 0, 4}}); // need not be of unit length
+    // need not be of unit length
+    const auto slanted = kept_by({true, ClipAxis::view, 5, false, {3, 0, 4}});
     EXPECT_NEAR(slanted->height({3, 0, 4}), 0, 1e-12);
     EXPECT_NEAR(slanted->height({0, 0, 0}), 5, 1e-12);
 }
@@ -80,7 +81,8 @@ TEST(ClipPlane, WhatIsKeptOfARayIsWhereItsPlacesAreKept)
             }
         }
     }
-    EXPECT_EQ(kept_of_ray({{0, 0, 1}, -1}, {0, 0, 0}, {1, 0, 0}), std::nullopt); // beside the plane, all of it
+    // beside the plane, all of it
+    EXPECT_EQ(kept_of_ray({{0, 0, 1}, -1}, {0, 0, 0}, {1, 0, 0}), std::nullopt);
     EXPECT_TRUE(kept_of_ray({{0, 0, 1}, 1}, {0, 0, 0}, {1, 0, 0}).has_value());
 }
 
@@ -99,7 +101,8 @@ TEST(ClipPlane, AClickGoesThroughWhatIsCutAwayAndOnlyThere)
         EXPECT_GE(face(middle, cut(ClipAxis::z, 5, true)), 2);
         EXPECT_EQ(face(middle, cut(ClipAxis::z, -1)), -1) << "all is cut away";
         EXPECT_EQ(face(middle, cut(ClipAxis::z, 11, true)), -1);
-        // Half of each face is left: the same face is picked on one side of the plane and not on the other.
+        // Half of each face is left: the same face is picked on one side of the plane and not on
+        // the other.
         const glm::dvec2 left = middle - glm::dvec2(50, 0), right = middle + glm::dvec2(50, 0);
         EXPECT_GE(face(left, cut(ClipAxis::x, 0)), 2);
         EXPECT_EQ(face(right, cut(ClipAxis::x, 0)), -1);

@@ -17,7 +17,8 @@ namespace {
 
 double difference(const Oklab& a, const Oklab& b) { return std::hypot(a.L - b.L, std::hypot(a.a - b.a, a.b - b.b)); }
 
-/// What is left of a colour for somebody without the long- or medium-wave cones: the mean of those two, roughly.
+/// What is left of a colour for somebody without the long- or medium-wave cones: the mean of those
+/// two, roughly.
 Oklab without_red_and_green(const Oklab& colour) { return {colour.L, 0, colour.b}; }
 
 TEST(Oklab, AgreesWithThePublishedValuesOfWhiteRedAndBlue)
@@ -202,10 +203,12 @@ TEST(DivergingMap, IsLightestAtZeroInEveryRange)
         EXPECT_LT((rgb(least / 2) - map_colour(ColourMap::diverging, 0.25)).norm(), 1e-5);
         EXPECT_LT((rgb(greatest / 2) - map_colour(ColourMap::diverging, 0.75)).norm(), 1e-5);
     }
-    const ColourScale above{.map = ColourMap::diverging, .least = 5, .greatest = 20}; // no zero: one half of the map
+    // no zero: one half of the map
+    const ColourScale above{.map = ColourMap::diverging, .least = 5, .greatest = 20};
     EXPECT_NEAR(place_in_map(above, 1), 1, 1e-12);
     EXPECT_NEAR(place_in_map(above, 0), 0.5 + 0.5 * 5 / 20, 1e-12);
-    ColourScale bands{.map = ColourMap::diverging, .least = -1, .greatest = 3, .bands = 8}; // of 0.5, zero between two
+    // of 0.5, zero between two
+    ColourScale bands{.map = ColourMap::diverging, .least = -1, .greatest = 3, .bands = 8};
     for (const float v : {-0.9f, -0.3f})
         EXPECT_GT(colour_of(bands, v)[2], colour_of(bands, v)[0]) << "blue below zero: " << v;
     for (const float v : {0.6f, 2.9f})
@@ -235,7 +238,8 @@ TEST(LegendTicks, AreRoundWithBothEndsAndTellOfValuesBeyond)
     EXPECT_EQ(texts(5), (std::vector<std::string>{"-0.1", "0", "0.1", "0.2", "\u2265 0.3"}));
     legend.below = true;
     EXPECT_EQ(texts(4), (std::vector<std::string>{"\u2264 -0.1", "0", "0.15", "\u2265 0.3"}));
-    EXPECT_EQ(texts(3), (std::vector<std::string>{"\u2264 -0.1", "0", "\u2265 0.3"})); // zero is what matters
+    // zero is what matters
+    EXPECT_EQ(texts(3), (std::vector<std::string>{"\u2264 -0.1", "0", "\u2265 0.3"}));
     for (int most = 2; most < 12; ++most) {
         const auto ticks = legend_ticks(legend, most);
         EXPECT_LE(int(ticks.size()), most);
@@ -246,7 +250,8 @@ TEST(LegendTicks, AreRoundWithBothEndsAndTellOfValuesBeyond)
 
 TEST(LegendTicks, ValuesJustAtTheEndsAreNotBeyond)
 {
-    const ColourScale scale{.least = 0.1f, .greatest = 0.7f}; // not the same numbers in double precision
+    // not the same numbers in double precision
+    const ColourScale scale{.least = 0.1f, .greatest = 0.7f};
     EXPECT_FALSE(below(scale, 0.1) || above(scale, 0.7));
     EXPECT_TRUE(below(scale, 0.099) && above(scale, 0.701));
 }

@@ -5,7 +5,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A frame of a window in which these dialogs are drawn, as begin_modal() does it. @returns what was opened
+/// A frame of a window in which these dialogs are drawn, as begin_modal() does it. @returns what
+/// was opened
 std::string frame(DialogQueue& queue, const std::vector<std::string>& drawn,
                   const std::vector<std::string>& appear = {}, const std::string& urgent = "")
 {

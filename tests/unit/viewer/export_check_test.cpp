@@ -64,7 +64,8 @@ TEST(ExportCheck, TheWordsAreTheMeasureInTheUnitOfTheScreenAndNoAdvice)
 
 TEST(ExportCheck, AnInterpolatingSurfaceIsMeasuredByTheUsualTolerance)
 {
-    // The step shows the share within the tolerance of DeviationOptions: for a plane 0.2 mm above the part all is beyond.
+    // The step shows the share within the tolerance of DeviationOptions: for a plane 0.2 mm above
+    // the part all is beyond.
     TriMesh part;
     part.position.resize(3, 4);
     part.position << 0, 10, 10, 0, 0, 0, 10, 10, 0, 0, 0, 0;

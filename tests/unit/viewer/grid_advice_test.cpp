@@ -13,7 +13,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A flat rectangle as a part with its blank; vertex numbers in its file are three times those of the mesh.
+/// A flat rectangle as a part with its blank; vertex numbers in its file are three times those of
+/// the mesh.
 Session plate()
 {
     Session session;

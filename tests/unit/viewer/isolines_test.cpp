@@ -91,7 +91,8 @@ TEST(Isolines, EndWhereAValueIsNoNumber)
         EXPECT_NEAR(length(line), 4, 1e-12);
 }
 
-/// Parallel lines y = 1, 2, ... on a rectangle that fills the pane: 800 x 600 pixels, 100 pixels apart.
+/// Parallel lines y = 1, 2, ... on a rectangle that fills the pane: 800 x 600 pixels, 100 pixels
+/// apart.
 struct Ruled {
     TriMesh mesh = shapes::rectangle(8, 6, 16, 12);
     std::vector<Isoline> lines = isolines(
@@ -147,7 +148,8 @@ TEST(IsolineLabels, AreTheSameForTheSameViewAndFollowTheLinesIntoACorner)
     ASSERT_EQ(once.size(), again.size());
     for (size_t i = 0; i < once.size(); ++i)
         EXPECT_EQ(once[i].box.least, again[i].box.least);
-    ruled.camera.target = {3.1, 2.05, 0}; // far closer than the mesh is fine: the ends of all pieces are outside
+    ruled.camera.target = {3.1, 2.05, 0}; // far closer than the mesh is fine: the ends of all
+                                          // pieces are outside
     ruled.camera.height = 0.2;
     const auto near = ruled.labels();
     ASSERT_FALSE(near.empty());

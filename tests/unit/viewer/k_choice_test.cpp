@@ -75,7 +75,8 @@ TEST_F(KChoice, FiguresFollowAtOnceAndTheBlankHasThem)
     std::mt19937 random(11);
     std::uniform_real_distribution<double> share(0, 1);
     for (int trial = 0; trial < 4; ++trial) {
-        const double inner = 2 + 2 * share(random), angle = 0.9 + 1.2 * share(random); // radii that meshes are known by
+        // radii that meshes are known by
+        const double inner = 2 + 2 * share(random), angle = 0.9 + 1.2 * share(random);
         ASSERT_NO_FATAL_FAILURE(open_bracket(inner + thickness / 2, angle));
         const double number = std::round(1000 * (0.3 + 0.2 * share(random))) / 1000;
         std::ofstream(folder / "k.csv") << "R/t;K\n0;0.3\n10;0.5\n";
@@ -88,7 +89,8 @@ TEST_F(KChoice, FiguresFollowAtOnceAndTheBlankHasThem)
             const double wanted = angle * (inner + k * thickness);
             SheetBend shown;
             ASSERT_NO_FATAL_FAILURE(choose(text, shown));
-            EXPECT_NEAR(shown.k, k, 1e-3) << text; // the radius is that of a circle through vertices
+            EXPECT_NEAR(shown.k, k, 1e-3) << text; // the radius is that of a circle through
+                                                   // vertices
             EXPECT_NEAR(shown.allowance, wanted, 1e-3 * wanted) << text;
             EXPECT_NEAR(length(), legs + wanted, 1e-3 * legs) << text;
             const SheetBend& made = document.session.bends->bends[0];

@@ -213,7 +213,8 @@ TEST_F(UnsavedWork, ThatCannotBeWrittenIsSaidAndThePartOpensAllTheSame)
     EXPECT_EQ(kept.offer(), nullptr);
     const auto said = [&](const Message& m) { return m.text.find("Autosave failed") != std::string::npos; };
     for (int tries = 0; tries < 5000 && std::none_of(state.messages.begin(), state.messages.end(), said); ++tries) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // it is written on a thread of its own
+        // it is written on a thread of its own
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
         kept.follow(model, false);
     }
     EXPECT_TRUE(std::any_of(state.messages.begin(), state.messages.end(), said));

@@ -1,4 +1,5 @@
-// Jobs that are cancelled and come to no checkpoint: nobody waits for them, and what they do afterwards is not seen.
+// Jobs that are cancelled and come to no checkpoint: nobody waits for them, and what they do
+// afterwards is not seen.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -171,7 +172,8 @@ TEST_F(LeftJobs, StepsThatEndedBeforeARunIsLeftAreKept)
 {
     propose_for_a_lipped_box();
     ASSERT_EQ(document.steps.size(), 5u);
-    for (const bool edited : {false, true}) { // as they were proposed, and as a list of the user's own
+    for (const bool edited : {false, true}) { // as they were proposed, and as a list of the user's
+                                              // own
         if (edited) {
             ChangeStep change;
             change.step = 4;

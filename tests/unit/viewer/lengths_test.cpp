@@ -56,7 +56,8 @@ TEST(Lengths, ValuesOfFieldsAreShownInTheUnit)
     EXPECT_EQ(value_text(1234.5, "mm", mm), "1234 mm");
 }
 
-/// The values written beside the colours are round in the unit in which they are written, whichever that is.
+/// The values written beside the colours are round in the unit in which they are written, whichever
+/// that is.
 TEST(Lengths, LegendsAreRoundInInch)
 {
     FieldDisplay display;

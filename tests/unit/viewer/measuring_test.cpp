@@ -22,7 +22,8 @@ using Eigen::Vector3d;
 
 using std::numbers::pi;
 
-/// A flange on a web: 40 mm flat, a bend of 90 degrees with a radius of 6 mm, 40 mm flat; 60 mm deep along y.
+/// A flange on a web: 40 mm flat, a bend of 90 degrees with a radius of 6 mm, 40 mm flat; 60 mm
+/// deep along y.
 struct Bend {
     static constexpr double radius = 6, flat = 40, arc = pi / 2 * radius, length = 2 * flat + arc;
     static Vector3d place(double u, double v)
@@ -180,7 +181,8 @@ TEST(Measuring, WhatIsFlatOrTooCoarseIsRefusedInWords)
         return Measurement{MeasureKind::rounding, {{face_at(mesh, place), Vector3d::Constant(1. / 3)}}};
     };
     EXPECT_NE(refusal(bend, rounding(bend, {10, 30, 0})).find("flat"), std::string::npos);
-    const TriMesh rough = shapes::noisy(shapes::rectangle(100, 80, 20, 16), 0.2); // no better than its noise
+    // no better than its noise
+    const TriMesh rough = shapes::noisy(shapes::rectangle(100, 80, 20, 16), 0.2);
     EXPECT_NE(refusal(rough, rounding(rough, {50, 40, 0})).find("flat"), std::string::npos);
 }
 

@@ -38,7 +38,8 @@ static_assert(fields<Three>() == 3);
 
 } // namespace
 
-// What is forgotten there is lost in scripts and projects without a word, and so it is in tests that compare their JSON.
+// What is forgotten there is lost in scripts and projects without a word, and so it is in tests
+// that compare their JSON.
 TEST(Members, AreAllFieldsOfTheirStructs)
 {
     EXPECT_EQ(members<GltfNodes>, fields<GltfNodes>());

@@ -143,7 +143,8 @@ TEST(MouseStyle, InCatiaTheSecondButtonTurnsWhileHeldAndZoomsOnceClicked)
         EXPECT_EQ(hand.move(middle).does, Navigation::pan);
         hand.press(both(middle, side));
         EXPECT_EQ(hand.move(both(middle, side)).does, Navigation::turn);
-        EXPECT_EQ(hand.move(middle).does, Navigation::zoom); // let go: a click, or the end of a turn
+        EXPECT_EQ(hand.move(middle).does, Navigation::zoom); // let go: a click, or the end of a
+                                                             // turn
         EXPECT_EQ(hand.move(middle).does, Navigation::zoom);
         hand.press(both(middle, side));
         EXPECT_EQ(hand.move(both(middle, side)).does, Navigation::turn);

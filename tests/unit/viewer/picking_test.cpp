@@ -75,7 +75,8 @@ TEST_F(Picking, EveryPickingToolTakesFacesAndSaysNothing)
     EXPECT_EQ(int(document.selected.size()), document.session.part->mesh.triangles());
     const Eigen::Vector3d centre = document.session.part->mesh.position.rowwise().mean();
     const double half =
-        pixel_of(state.view.camera[size_t(View::part)], centre, size).x; // the part lies beside the cube
+        // the part lies beside the cube
+        pixel_of(state.view.camera[size_t(View::part)], centre, size).x;
     model.apply(PickArea{View::part, {{0, 0}, {half, 0}, {half, 600}, {0, 600}}, size, PickMode::remove, true});
     EXPECT_NEAR(double(document.selected.size()), document.session.part->mesh.triangles() / 2.,
                 document.session.part->mesh.triangles() * 0.1);

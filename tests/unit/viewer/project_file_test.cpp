@@ -260,7 +260,8 @@ TEST(ProjectFile, PicksFindTheirPlaceOnAPartThatWasMeshedAnew)
         std::vector<std::string> lost;
         const Document after = reopened(folder / "a.spia", lost);
         EXPECT_TRUE(lost.empty()) << lost.front();
-        // A face is in by its middle: along the two borders the area is uncertain by half an edge on either side.
+        // A face is in by its middle: along the two borders the area is uncertain by half an edge
+        // on either side.
         const double border = 2 * (coarse.position.row(1).maxCoeff() - coarse.position.row(1).minCoeff());
         const double edge = std::max(shapes::mean_edge(coarse), shapes::mean_edge(fine));
         EXPECT_NEAR(area_of(fine, after.selected), area_of(coarse, before.selected), 0.5 * border * edge) << triangles;
@@ -269,7 +270,8 @@ TEST(ProjectFile, PicksFindTheirPlaceOnAPartThatWasMeshedAnew)
             EXPECT_LT(middle(fine, f)[0], to + 1.5 * edge);
         }
         ASSERT_EQ(after.probes.size(), 1u);
-        // Each one has become one near it, those of the outline and of the hole again of a boundary.
+        // Each one has become one near it, those of the outline and of the hole again of a
+        // boundary.
         ASSERT_EQ(after.vertices.size(), 3u);
         const auto on_boundary = [](const TriMesh& mesh, int v) {
             const auto all = boundary_vertices(mesh).vertex;
@@ -297,7 +299,8 @@ TEST(ProjectFile, WhatIsGoneFromAChangedPartIsReported)
     before.regions.push_back({"right", RegionKind::fixed, {}, faces_between(mesh, 80, 100)});
     before.probes.push_back({faces_between(mesh, 95, 100)[0], {1. / 3, 1. / 3, 1. / 3}});
     before.session.options.corners = {0, 50, 50 + 30 * 51, 30 * 51};
-    before.vertices = {0, 25 + 15 * 51, 49 + 15 * 51, 50 + 15 * 51}; // a corner, the middle, two at the right edge
+    // a corner, the middle, two at the right edge
+    before.vertices = {0, 25 + 15 * 51, 49 + 15 * 51, 50 + 15 * 51};
     std::sort(before.vertices.begin(), before.vertices.end());
     save_project(folder / "a.spia", before, {});
     std::vector<std::string> lost;
@@ -330,7 +333,8 @@ TEST(ProjectFile, WhatIsGoneFromAChangedPartIsReported)
     EXPECT_EQ(lost.size(), 5u);
     EXPECT_TRUE(away.regions[0].faces.empty());
 
-    // A trim further out by less than the reach: what was at the edge is again, though another vertex is nearer.
+    // A trim further out by less than the reach: what was at the edge is again, though another
+    // vertex is nearer.
     shapes::write_mesh(folder / "part.obj", shapes::rectangle(100.8, 60, 504, 30));
     const Document wider = reopened(folder / "a.spia", lost);
     ASSERT_EQ(wider.vertices.size(), 4u);
@@ -380,14 +384,16 @@ TEST(ProjectFile, WhatIsNoProjectIsRefusedInPlainWords)
     put(folder / "b.spia", "");
     EXPECT_NE(refusal(folder / "b.spia"), "opened");
     put(folder / "b.spia",
-        std::string(1000000, '[') + std::string(1000000, ']')); // deep nesting must not end the stack
+        // deep nesting must not end the stack
+        std::string(1000000, '[') + std::string(1000000, ']'));
     EXPECT_NE(refusal(folder / "b.spia"), "opened");
     Document nothing;
     EXPECT_THROW(save_project(folder / "c.spia", nothing, {}), InputError);
     EXPECT_THROW(save_project(folder / "nowhere/c.spia", viewer::document_of(dome, Stage::read), {}), ExchangeError);
 }
 
-/// Before it could be asked for, no triangles of CAD faces were remeshed unasked: cuts and corners name their vertices.
+/// Before it could be asked for, no triangles of CAD faces were remeshed unasked: cuts and corners
+/// name their vertices.
 TEST(ProjectFile, OneFromBeforeKeepsTheTrianglesOfCadFaces)
 {
     const ScratchFolder folder;
@@ -424,7 +430,8 @@ TEST(ProjectFile, DamageOfAnyKindEndsInAnInputError)
     document.regions[0].faces.resize(10);
     save_project(folder / "a.spia", document, {});
     std::string good = content_of(folder / "a.spia");
-    for (const std::string_view varies : {"\"was_at\":\"", "\"program\": \""}) { // the same damage on every machine
+    // the same damage on every machine
+    for (const std::string_view varies : {"\"was_at\":\"", "\"program\": \""}) {
         const size_t value = good.find(varies) + varies.size();
         ASSERT_LT(value, good.size());
         ASSERT_GE(value, varies.size());

@@ -183,7 +183,8 @@ TEST_F(UnfinishedWork, TheNewestIsOfferedFirst)
     const Document document = viewer::document_of(dome, Stage::read);
     for (const char* name : {"old.spia", "new.spia"})
         ASSERT_EQ(in_a_program_that_crashes([&] { (new Autosave)->save(document, {}, folder / name); }), 0);
-    for (const auto& entry : fs::directory_iterator(state_folder())) // time stamps of a file system may be coarse
+    // time stamps of a file system may be coarse
+    for (const auto& entry : fs::directory_iterator(state_folder()))
         if (entry.path().extension() == ".spia" &&
             open_project(entry.path(), materials_folder).recovers.filename() == "old.spia")
             fs::last_write_time(entry.path(), fs::file_time_type::clock::now() - std::chrono::hours(1));

@@ -96,7 +96,8 @@ TEST_F(RefusedPart, IsTakenWithoutItsSmallerPiecesAndRefusedAgainAfterUndo)
     EXPECT_LT(state.document.session.part->mesh.triangles(), both.triangles());
     EXPECT_EQ(first_stale(state.document), Stage::solve);
     EXPECT_EQ(state.history.undo_name(), "Change reading options");
-    apply(SetReading{{{}, false}}); // refused again: what is there stays to be looked at, out of date
+    apply(SetReading{{{}, false}}); // refused again: what is there stays to be looked at, out of
+                                    // date
     EXPECT_EQ(errors(), 1);
     EXPECT_EQ(first_stale(state.document), Stage::read);
     EXPECT_NE(state.document.session.part, nullptr);
@@ -153,7 +154,8 @@ TEST_F(RefusedPart, ReadAgainWithItsFacesInAnotherOrderKeepsPicksWhereTheyAreInS
     apply(SelectFaces{chosen, PickMode::replace});
     apply(AddProbe{{7, {0.2, 0.3, 0.5}}});
     apply(SelectVertices{{4}, PickMode::replace});
-    shapes::write_mesh(folder / "sheet.obj", other.mesh); // another program wrote the file in its own order
+    shapes::write_mesh(folder / "sheet.obj", other.mesh); // another program wrote the file in its
+                                                          // own order
     apply(SetReading{{true, true}});
     EXPECT_EQ(errors(), 0);
     const Document& after = state.document;
@@ -294,7 +296,8 @@ TEST_F(RefusedPart, OpeningThatIsCancelledLeavesThePart)
 {
     apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
     const auto part = state.document.session.part;
-    shapes::write_mesh(folder / "large.obj", shapes::rectangle(300, 200, 300, 200)); // read long after it is cancelled
+    // read long after it is cancelled
+    shapes::write_mesh(folder / "large.obj", shapes::rectangle(300, 200, 300, 200));
     model.apply(OpenPart{folder / "large.obj", ""});
     apply(CancelJob{});
     ASSERT_EQ(state.document.session.part, part);

@@ -19,8 +19,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A small plate with two holes, bent over a saddle, through the whole chain. Numbers in its file are twice those of
-/// the mesh.
+/// A small plate with two holes, bent over a saddle, through the whole chain. Numbers in its file
+/// are twice those of the mesh.
 Session finished_session()
 {
     Session session;
@@ -202,7 +202,8 @@ TEST_F(Scenes, IsolinesLieOnTheSheetOfTheirViewAndAFieldPerFaceHasNone)
     ASSERT_EQ(on_blank->size(), on_part->size());
     for (const Isoline& line : *on_blank)
         EXPECT_EQ(line.point.row(2).cwiseAbs().maxCoeff(), 0);
-    for (const Isoline& line : *on_part) { // z = (x^2 - y^2) / 300, but for the flat triangles in between
+    for (const Isoline& line : *on_part) { // z = (x^2 - y^2) / 300, but for the flat triangles in
+                                           // between
         const Eigen::ArrayXd x = line.point.row(0).array() - 60, y = line.point.row(1).array() - 40;
         EXPECT_LT(((x * x - y * y) / 300 - line.point.row(2).transpose().array()).abs().maxCoeff(), 0.2);
     }
@@ -257,7 +258,8 @@ TEST_F(Scenes, AProbeShowsTheValueAtItsPlace)
     state.document.display.field = Field::thickness;
     state.document.display.extremes = false;
     const Eigen::Vector3d barycentric(0.2, 0.3, 0.5);
-    state.document.probes = {{7, barycentric}, {1000000, barycentric}}; // the second one is of another part
+    // the second one is of another part
+    state.document.probes = {{7, barycentric}, {1000000, barycentric}};
     const Scene shown = part_scene(state, cache);
     ASSERT_EQ(shown.labels.size(), 1u);
     const Eigen::Vector3i corner = part().triangle.col(7);
@@ -274,7 +276,8 @@ TEST_F(Scenes, WhileAJobLaysTheBlankOutItsShapeSoFarIsShownWithoutAField)
     const Scene shown = blank_scene(state, cache);
     EXPECT_FALSE(shown.layers[0].field);
     EXPECT_NEAR(shown.box.sizes().x(), live->row(0).maxCoeff() - live->row(0).minCoeff(), 1e-9);
-    state.job.blank = std::make_shared<Eigen::Matrix2Xd>(Eigen::Matrix2Xd::Zero(2, 3)); // of another part
+    // of another part
+    state.job.blank = std::make_shared<Eigen::Matrix2Xd>(Eigen::Matrix2Xd::Zero(2, 3));
     EXPECT_TRUE(blank_scene(state, cache).layers[0].field);
 }
 
@@ -409,8 +412,8 @@ TEST(CellJacobian, IsTheSineOfTheWorstCornerAndItsLeastIsThatOfTheReport)
     EXPECT_LT((scaled_jacobians(grid_with_node_at(1, 1)).array() - 1).abs().maxCoeff(), 1e-12);
     const QuadGrid skewed = grid_with_node_at(1.4, 1.3);
     EXPECT_NEAR(scaled_jacobians(skewed).minCoeff(), cell_quality(skewed).min_scaled_jacobian, 1e-12);
-    // Cell (0, 0) has the corners (0,0), (1,0), (1.4,1.3), (0,1) and at the third one the sides (-1.4,-0.3),
-    // (-0.4,-1.3).
+    // Cell (0, 0) has the corners (0,0), (1,0), (1.4,1.3), (0,1) and at the third one the sides
+    // (-1.4,-0.3), (-0.4,-1.3).
     EXPECT_NEAR(scaled_jacobians(skewed)[0], 1.70 / std::hypot(0.4, 1.3) / std::hypot(1.4, 0.3), 1e-9);
 }
 
@@ -456,7 +459,8 @@ TEST(SurfaceDeviation, OfAPlaneBesideTheOtherIsTheirDistanceWithItsSignAndNothin
     }
 }
 
-/// A plate that is stretched along x by 1.2 and squeezed along y by 0.8, from a blank that lies askew.
+/// A plate that is stretched along x by 1.2 and squeezed along y by 0.8, from a blank that lies
+/// askew.
 struct Stretched {
     TriMesh part = shapes::rectangle(60, 40, 30, 20);
     FlattenResult flat;

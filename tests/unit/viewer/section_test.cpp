@@ -54,7 +54,8 @@ TEST(Section, OfADomeFollowsItsMeridian)
 
 TEST(Section, OfAHatIsAsLongAsItsSheetAlsoDownItsWalls)
 {
-    // A strip with two upright walls of 10 mm, seen from above: the walls have no width along the line.
+    // A strip with two upright walls of 10 mm, seen from above: the walls have no width along the
+    // line.
     const double x[] = {0, 20, 20, 50, 50, 70}, z[] = {0, 0, 10, 10, 0, 0};
     TriMesh hat{Eigen::Matrix3Xd(3, 12), Eigen::Matrix3Xi(3, 10)};
     for (int i = 0; i < 6; ++i) {

@@ -1,4 +1,5 @@
-// What is chosen of the sheet besides its grade and thickness: a seam, the strains of the skins, a material of a tensile test.
+// What is chosen of the sheet besides its grade and thickness: a seam, the strains of the skins, a
+// material of a tensile test.
 #include <fmt/core.h>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -145,7 +146,8 @@ TEST_F(SheetOptions, SkinsAreFieldsOfABlankThatWasMadeWithThem)
 TEST_F(SheetOptions, ATensileTestBecomesTheMaterial)
 {
     open();
-    std::string rows = "true strain, true stress MPa\n"; // Hooke's line, then Hollomon's law over the plastic strain
+    std::string rows = "true strain, true stress MPa\n"; // Hooke's line, then Hollomon's law over
+                                                         // the plastic strain
     for (int k = 1; k <= 20; ++k)
         rows += fmt::format("{:.9g}, {:.9g}\n", 7.5 * k / 200'000, 7.5 * k);
     for (int k = 1; k <= 300; ++k) {

@@ -57,7 +57,8 @@ TEST_F(UnfoldingSteps, TheTargetIsShownBeforeItsStepIsRun)
 {
     open_channel();
     const double below = document.session.part->mesh.position.row(2).minCoeff();
-    propose(with_height(below - 1e-6, below + 1e-6)[0]); // the other leg, the web, and all onto this one
+    propose(with_height(below - 1e-6, below + 1e-6)[0]); // the other leg, the web, and all onto
+                                                         // this one
     ASSERT_EQ(document.steps.size(), 2u);
     SceneCache cache;
     const auto target = [&]() -> std::optional<Eigen::Matrix3Xd> {

@@ -163,7 +163,8 @@ TEST_F(Target, OfEveryKindIsKeptByProjectsAndTakenBack)
                                           {.plane = TargetPlane{{1, 2, 3}, {0, 0.6, 0.8}}},
                                           {.cylinder = TargetCylinder{{0, 5, 300}, {0, 1, 0}, 250}},
                                           {.cone = TargetCone{{0, 0, 400}, {0, 0, -1}, 12}}};
-    const auto same = [](const StepTarget& a, const StepTarget& b) { // but for rounding: degrees, unit vectors
+    // but for rounding: degrees, unit vectors
+    const auto same = [](const StepTarget& a, const StepTarget& b) {
         if (a.plane && b.plane)
             return a.plane->origin.isApprox(b.plane->origin) && a.plane->normal.isApprox(b.plane->normal);
         if (a.cylinder && b.cylinder)
@@ -232,7 +233,8 @@ TEST_F(Target, APlaneThatTurnsFromTheFixedFacesIsToldAsBad)
         if (part.position(2, part.triangle.col(f)).minCoeff() > top - 1e-4)
             upper.push_back(f);
     model.apply(SelectFaces{upper});
-    const double lean = 20. / 180 * std::numbers::pi; // through the edge of the web, but not on from it
+    const double lean = 20. / 180 * std::numbers::pi; // through the edge of the web, but not on
+                                                      // from it
     model.apply(AddStep{0, {}, "", {.plane = TargetPlane{{right, 0, top}, {std::cos(lean), 0, std::sin(lean)}}}});
     run();
     ASSERT_EQ(status(), std::vector{StepStatus::done}) << last(Severity::error);

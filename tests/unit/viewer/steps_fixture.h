@@ -29,7 +29,8 @@ struct UnfoldingSteps : ModelFixture {
         wait();
         ASSERT_NE(document.session.part, nullptr) << last(Severity::error);
     }
-    /// A lying U: flat 20, bent over 5, flat 60 upright, bent over 5, flat 25 below the first; all 80 long.
+    /// A lying U: flat 20, bent over 5, flat 60 upright, bent over 5, flat 25 below the first; all
+    /// 80 long.
     const shapes::DevelopablePart channel = shapes::extruded(shapes::Profile({0, 0}, 0)
                                                                  .straight(20)
                                                                  .bend(5, -std::numbers::pi / 2)

@@ -31,7 +31,8 @@ NurbsSurface saddle(double h, double a)
     s.count_u = s.count_v = 3;
     s.knots_u = s.knots_v = {0, 0, 0, 1, 1, 1};
     s.control.resize(3, 9);
-    const double x[] = {-h, 0, h}, xx[] = {h * h, -h * h, h * h}; // Bezier coefficients of x and x^2
+    // Bezier coefficients of x and x^2
+    const double x[] = {-h, 0, h}, xx[] = {h * h, -h * h, h * h};
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i)
             s.control.col(s.index(i, j)) << x[i], x[j], (xx[i] - xx[j]) / (2 * a);

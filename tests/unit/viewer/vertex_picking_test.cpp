@@ -28,7 +28,8 @@ Eigen::Vector3d backwards(const Camera& camera)
     return {z.x, z.y, z.z};
 }
 
-/// Whether the line from a vertex to the eye meets a face that does not touch the vertex, by trying all. Parallel sight.
+/// Whether the line from a vertex to the eye meets a face that does not touch the vertex, by trying
+/// all. Parallel sight.
 bool covered(const TriMesh& mesh, int v, const Eigen::Vector3d& to_eye)
 {
     const Eigen::Vector3d from = mesh.position.col(v);
@@ -87,7 +88,8 @@ TEST(VertexPicking, TakesTheVertexInSightThatIsNearestToThePixel)
             EXPECT_EQ(vertex_at(pick, camera, mesh, picker), expected);
             ++(expected ? found : nothing);
         }
-        for (int v = 0; v < mesh.vertices(); v += 5) // on a hidden one there is another one, or none
+        for (int v = 0; v < mesh.vertices(); v += 5) // on a hidden one there is another one, or
+                                                     // none
             if (covered(mesh, v, backwards(camera))) {
                 const glm::dvec2 pixel(pixel_of(camera, mesh.position.col(v), window));
                 EXPECT_NE(vertex_at({.pixel = pixel, .size = window}, camera, mesh, picker), v);
@@ -219,7 +221,8 @@ TEST(VertexPicking, AMillionTrianglesAreSearchedWhileTheMouseMoves)
     for (int i = 0; i < moves; ++i)
         vertex_at({.pixel = {x(random), y(random)}, .size = window}, camera, sheet, picker);
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-    // The yardstick, on the same machine under the same load: where all vertices are in the view, once.
+    // The yardstick, on the same machine under the same load: where all vertices are in the view,
+    // once.
     const auto again = std::chrono::steady_clock::now();
     glm::dvec3 sum(0);
     for (int v = 0; v < sheet.vertices(); ++v)

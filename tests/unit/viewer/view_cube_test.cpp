@@ -83,7 +83,8 @@ TEST(ViewCube, SeenFromASideItsMiddleIsThatSide)
 
 TEST(ViewCube, FromTheFrontPlacesAreReadOffDirectly)
 {
-    const glm::dquat front = look({}, StandardView::front).turn; // x to the right, z up, the face at y = -1
+    // x to the right, z up, the face at y = -1
+    const glm::dquat front = look({}, StandardView::front).turn;
     const double in = 0.5 * cube_face_share, at_edge = 0.5 * (1 + cube_face_share);
     EXPECT_EQ(cube_side_at(front, {in, -in}), (CubeSide{0, -1, 0}));
     EXPECT_EQ(cube_side_at(front, {at_edge, 0}), (CubeSide{1, -1, 0}));

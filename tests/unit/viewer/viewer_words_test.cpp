@@ -38,7 +38,8 @@ TEST(ViewerWords, LeaveNoFlagOfTheEngineAsItIs)
     const std::regex flag(R"re("[^"\n]*(--[a-z][a-z-]*)[^"\n]*")re");
     int found = 0;
     for (const auto& file : std::filesystem::recursive_directory_iterator(SPIA_SOURCE_DIR "/engine")) {
-        if (file.path().extension() != ".cpp" || file.path().stem() == "tensile_test") // read by the command line alone
+        // read by the command line alone
+        if (file.path().extension() != ".cpp" || file.path().stem() == "tensile_test")
             continue;
         const std::string text = content_of(file.path());
         for (std::sregex_iterator at(text.begin(), text.end(), flag), end; at != end; ++at, ++found)

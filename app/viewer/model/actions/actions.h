@@ -15,19 +15,22 @@
 #include "engine/forming/material/material_fit.h"
 #include "engine/pipeline/outputs.h"
 
-/// What a user can do. Buttons, shortcuts, scripts and tests put actions into a queue; apply() carries them out
-/// between two frames. In a script an action is an object {"do": NAME, ...} with the members of its struct; NAME is given here.
+/// What a user can do. Buttons, shortcuts, scripts and tests put actions into a queue; apply()
+/// carries them out between two frames. In a script an action is an object {"do": NAME, ...} with
+/// the members of its struct; NAME is given here.
 namespace spia::viewer {
 
 enum class PickMode { replace, add, remove };
 
 // --- the chain
-/// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), weld_gap_mm
-/// (with weld: gaps between open edges up to this are closed, too; not given: only what is at one place), keep_largest (all
-/// but the largest piece of sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces; none:
-/// all), skin (of a solid of sheet: "middle", the default, "outer" or "inner"), and of CAD files sewing_mm (gaps up to this are closed;
-/// not given: found from the gaps), deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal), leave_out_bad_faces
-/// (those that cannot be read or meshed) and keep_triangles (needles on drawn parts are not remeshed).
+/// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not
+/// given: as the format needs), weld_gap_mm (with weld: gaps between open edges up to this are
+/// closed, too; not given: only what is at one place), keep_largest (all but the largest piece of
+/// sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces;
+/// none: all), skin (of a solid of sheet: "middle", the default, "outer" or "inner"), and of CAD
+/// files sewing_mm (gaps up to this are closed; not given: found from the gaps), deflection_mm
+/// (between triangles and faces; not given: 1/2000 of the diagonal), leave_out_bad_faces (those
+/// that cannot be read or meshed) and keep_triangles (needles on drawn parts are not remeshed).
 struct Reading {
     std::optional<bool> weld = {};
     bool keep_largest = false;
@@ -42,8 +45,8 @@ struct Reading {
 Reading reading_of(const ReadOptions& options);
 void set_reading(ReadOptions& options, const Reading& reading);
 
-/// "list_file": what can be chosen of a file before it is read, in the background; the window shows it.
-/// again: the file of the part, to be read otherwise with all that was done on it.
+/// "list_file": what can be chosen of a file before it is read, in the background; the window shows
+/// it. again: the file of the part, to be read otherwise with all that was done on it.
 struct ListFile {
     std::filesystem::path file;
     bool again = false;
@@ -60,18 +63,21 @@ struct SetUnit {
 struct SetReading {
     Reading reading;
 }; ///< "set_reading": reads the part again otherwise; parts are as they are if not given
-/// "read_again": as open_part reads the file, but of the part that is there, with what was done on it; unit empty: as it is.
+/// "read_again": as open_part reads the file, but of the part that is there, with what was done on
+/// it; unit empty: as it is.
 struct ReadAgain {
     std::string unit;
     Reading reading;
 };
-/// "set_seam": mode ("automatic", "none", "given", "corners": where a few cuts let it unroll), path [[vertex of the file, ...], ...]; reads the part again,
-/// and with "corners" unfolds it with and without the cuts, to tell what they are worth.
+/// "set_seam": mode ("automatic", "none", "given", "corners": where a few cuts let it unroll), path
+/// [[vertex of the file, ...], ...]; reads the part again, and with "corners" unfolds it with and
+/// without the cuts, to tell what they are worth.
 struct SetSeam {
     SeamOptions seam;
 };
-/// "set_remeshing": remesh {size, tolerance} in mm, each null: chosen from the part; null: the triangles of the file, also where those
-/// of CAD faces are needles (reading.keep_triangles); reads the part again.
+/// "set_remeshing": remesh {size, tolerance} in mm, each null: chosen from the part; null: the
+/// triangles of the file, also where those of CAD faces are needles (reading.keep_triangles); reads
+/// the part again.
 struct SetRemeshing {
     std::optional<RemeshOptions> remesh = {};
 };
@@ -82,14 +88,15 @@ struct CancelJob {}; ///< "cancel_job"
 struct SetMaterial {
     std::string material;
 }; ///< "set_material": a grade or a file
-/// "fit_material": of a tensile test (table) the material file `out`, which becomes the material; fit {law, name, test {kind,
-/// in_percent, young_MPa}, poisson, density_kg_m3, r0, r45, r90}.
+/// "fit_material": of a tensile test (table) the material file `out`, which becomes the material;
+/// fit {law, name, test {kind, in_percent, young_MPa}, poisson, density_kg_m3, r0, r45, r90}.
 struct FitMaterial {
     std::filesystem::path table, out;
     MaterialFitOptions fit;
 };
-/// "save_material": material (as in a material file) becomes a grade of the user's own, see model/document/grades.h; replaces: the own grade
-/// that it was before, which goes if the name has changed. Where the part is of that grade it gets the new values.
+/// "save_material": material (as in a material file) becomes a grade of the user's own, see
+/// model/document/grades.h; replaces: the own grade that it was before, which goes if the name has
+/// changed. Where the part is of that grade it gets the new values.
 struct SaveMaterial {
     Material material;
     std::string replaces = {};
@@ -107,8 +114,9 @@ struct SetSkins {
 struct SetDirection {
     std::optional<Eigen::Vector3d> direction;
 }; ///< "set_direction"; not given: automatic
-/// "set_k_factor": where the neutral fibre of the bends lies, as `--k-factor` of the command line has it: a number, "din6935" or the
-/// file of a table; empty: 0.5, and meshes of no solid keep their triangles. A blank that is there is made anew at once.
+/// "set_k_factor": where the neutral fibre of the bends lies, as `--k-factor` of the command line
+/// has it: a number, "din6935" or the file of a table; empty: 0.5, and meshes of no solid keep
+/// their triangles. A blank that is there is made anew at once.
 struct SetKFactor {
     std::string k_factor = {};
 };
@@ -116,38 +124,43 @@ struct SetCorner {
     int corner = 0;
     int vertex = 0;
     bool dragging = false;
-};                        ///< "set_corner": number 0 to 3 to a vertex of the part; while dragging, coarse
+};                        ///< "set_corner": number 0 to 3 to a vertex of the part; while dragging,
+                          ///< coarse
 struct ProposeCorners {}; ///< "propose_corners": automatic ones again
 struct SetGrid {
     GridOptions grid;
-}; ///< "set_grid": columns, rows, cells, smoothing, method, to_bends (share of the lines, 0 to 0.9), even_cells
-/// "set_fit", of the surface: tolerance (mm, two-sided; null: it runs through the nodes of the grid), degree_u, degree_v (2 to
-/// 5), ends ("averaged", "clamped", "natural"), parameters ("blank", "corrected"), max_control_points.
+};  ///< "set_grid": columns, rows, cells, smoothing, method, to_bends (share of the lines, 0 to
+    ///< 0.9), even_cells
+/// "set_fit", of the surface: tolerance (mm, two-sided; null: it runs through the nodes of the
+/// grid), degree_u, degree_v (2 to 5), ends ("averaged", "clamped", "natural"), parameters
+/// ("blank", "corrected"), max_control_points.
 struct SetFit {
     FitChoice fit;
 };
 
-/// "set_patches", of the surface: patches {cuts [[vertex of the file, ...], ...], corners [vertex of the file, ...], edge_deg, smooth_joins}, patches around the holes;
-/// null: one patch.
+/// "set_patches", of the surface: patches {cuts [[vertex of the file, ...], ...], corners [vertex
+/// of the file, ...], edge_deg, smooth_joins}, patches around the holes; null: one patch.
 struct SetPatches {
     std::optional<LayoutOptions> patches = {};
 };
-/// "add_cut": patches meet along the picked vertices, whose ends are on the border of the part; with holes in the sheet or
-/// without.
+/// "add_cut": patches meet along the picked vertices, whose ends are on the border of the part;
+/// with holes in the sheet or without.
 struct AddCut {};
 struct RemoveCut {
     int cut = 0;
 }; ///< "remove_cut"
 
 // --- the shape of the surface
-/// "set_lattice": lattice {count [l, m, n], degree [p, q, r]} at rest around the surface; null: none.
+/// "set_lattice": lattice {count [l, m, n], degree [p, q, r]} at rest around the surface; null:
+/// none.
 struct LatticeChoice {
     std::array<int, 3> count = {4, 4, 4}, degree = {3, 3, 3};
 };
 struct SetLattice {
     std::optional<LatticeChoice> lattice = {};
 };
-/// "pick_handle": of a kind ("control", "lattice") the one that the view of the surface shows nearest to a pixel.
+/// "pick_handle": of a kind ("control", "lattice") the one that the view of the surface shows
+/// nearest to a pixel.
 struct PickHandle {
     HandleKind kind = HandleKind::control;
     glm::dvec2 pixel{0};
@@ -160,7 +173,8 @@ struct SelectHandles {
     std::vector<int> handles = {};
     PickMode mode = PickMode::replace;
 }; ///< "select_handles": kind, handles (numbers, see model/picking/handles.h), mode
-/// "move_handles": the picked ones of a kind by [x, y, z], mm; while dragging it is not judged what becomes of the surface
+/// "move_handles": the picked ones of a kind by [x, y, z], mm; while dragging it is not judged what
+/// becomes of the surface
 struct MoveHandles {
     HandleKind kind = HandleKind::control;
     Eigen::Vector3d by{0, 0, 0};
@@ -176,36 +190,40 @@ struct SaveDeformation {
     std::filesystem::path file;
 }; ///< "save_deformation"
 
-/// "set_limits": curve ("automatic", "keeler_brazier", "points" of a table, "none"), table, n, margin, max_thinning,
-/// max_thickening, low_strain. A blank that is there is judged anew at once.
+/// "set_limits": curve ("automatic", "keeler_brazier", "points" of a table, "none"), table, n,
+/// margin, max_thinning, max_thickening, low_strain. A blank that is there is judged anew at once.
 struct SetLimits {
     LimitsChoice limits;
 };
 
 // --- unfolding step by step
-/// "propose_steps": replaces the list; keep: a face whose region stays where it is, not given: the largest flat region. In the
-/// background.
+/// "propose_steps": replaces the list; keep: a face whose region stays where it is, not given: the
+/// largest flat region. In the background.
 struct ProposeSteps {
     std::optional<int> keep = {};
 };
-/// "run_steps": those that are missing or out of date, in the background. Where the list is a proposal of which nothing was edited
-/// it is planned anew if a step does not work out, as by the command line's --auto; the list then shows the steps that were done
+/// "run_steps": those that are missing or out of date, in the background. Where the list is a
+/// proposal of which nothing was edited it is planned anew if a step does not work out, as by the
+/// command line's --auto; the list then shows the steps that were done
 struct RunSteps {};
-/// "use_blank_of_steps": grid, surface, limits and files go on from it, in the background, until the part is solved in one step
-/// again (run_to). polish: the one-step solve is started from it first
+/// "use_blank_of_steps": grid, surface, limits and files go on from it, in the background, until
+/// the part is solved in one step again (run_to). polish: the one-step solve is started from it
+/// first
 struct UseBlankOfSteps {
     bool polish = false;
 };
-/// "open_steps": replaces the list by the steps of a file of the command line (schema spia.unfold/1), in the background
+/// "open_steps": replaces the list by the steps of a file of the command line (schema
+/// spia.unfold/1), in the background
 struct OpenSteps {
     std::filesystem::path file;
 };
 struct SaveSteps {
     std::filesystem::path file;
 }; ///< "save_steps" as such a file, in the background
-/// "add_step": lays the faces of a region (freed; not given: the selected faces) on the face that those of another one (fixed) lie
-/// on, or on the plane through those of a region (plane_of), or on a target of its own: plane {origin, normal}, cylinder {origin,
-/// axis, radius} or cone {apex, axis, half_angle_deg}; everything else stays. name may be empty
+/// "add_step": lays the faces of a region (freed; not given: the selected faces) on the face that
+/// those of another one (fixed) lie on, or on the plane through those of a region (plane_of), or on
+/// a target of its own: plane {origin, normal}, cylinder {origin, axis, radius} or cone {apex,
+/// axis, half_angle_deg}; everything else stays. name may be empty
 struct AddStep {
     int fixed = 0;
     std::optional<int> freed = {};
@@ -213,9 +231,11 @@ struct AddStep {
     StepTarget target = {};
     std::optional<int> plane_of = {};
 };
-/// "change_step": step (from 0), name, offset_mm of the face to its outer side, within_mm (0: automatic), extent_mm beyond what
-/// carries it (null: as far as the sheet goes), tolerance (null: that of the solver), target (as of add_step; with none of the three it is fitted again; not given: stays), friction of the target
-/// (force_N or pressure_MPa, friction, sides 1 or 2; null: none)
+/// "change_step": step (from 0), name, offset_mm of the face to its outer side, within_mm (0:
+/// automatic), extent_mm beyond what carries it (null: as far as the sheet goes), tolerance (null:
+/// that of the solver), target (as of add_step; with none of the three it is fitted again; not
+/// given: stays), friction of the target (force_N or pressure_MPa, friction, sides 1 or 2; null:
+/// none)
 struct ChangeStep {
     int step = 0;
     std::string name = {};
@@ -226,13 +246,14 @@ struct ChangeStep {
     std::optional<StepTarget> target = {};
     std::optional<StepFriction> friction = {};
 };
-/// "set_target_plane": the target of a step becomes the plane through the faces of a region (not given: the selected faces), as
-/// they lie before it
+/// "set_target_plane": the target of a step becomes the plane through the faces of a region (not
+/// given: the selected faces), as they lie before it
 struct SetTargetPlane {
     int step = 0;
     std::optional<int> region = {};
 };
-/// "set_carrying": the target of a step is fitted to the faces of a region (not given: the selected faces), which stay
+/// "set_carrying": the target of a step is fitted to the faces of a region (not given: the selected
+/// faces), which stay
 struct SetCarrying {
     int step = 0;
     std::optional<int> region = {};
@@ -243,8 +264,8 @@ struct RemoveStep {
 struct MoveStep {
     int step = 0, to = 0;
 }; ///< "move_step": to another place in the list
-/// "show_step": step (from 0), whose faces are marked; position of the slider, 0: the part, k: after step k. Where only one is
-/// given the other follows; where neither is, the part is shown.
+/// "show_step": step (from 0), whose faces are marked; position of the slider, 0: the part, k:
+/// after step k. Where only one is given the other follows; where neither is, the part is shown.
 struct ShowStep {
     std::optional<int> step = {};
     std::optional<double> position = {};
@@ -255,7 +276,8 @@ struct SelectFaces {
     std::vector<int> faces;
     PickMode mode = PickMode::replace;
 }; ///< "select_faces"
-/// "pick_at": what the view shows at a pixel: the face, with `flood` all around it up to an angle (degrees), with `smooth` its whole smooth region.
+/// "pick_at": what the view shows at a pixel: the face, with `flood` all around it up to an angle
+/// (degrees), with `smooth` its whole smooth region.
 struct PickAt {
     View view = View::part;
     glm::dvec2 pixel{0};
@@ -264,7 +286,8 @@ struct PickAt {
     std::optional<double> flood = {};
     bool smooth = false;
 };
-/// "pick_area": all faces whose middle lies inside a polygon of pixels (a box has four). Hidden ones only with `through`.
+/// "pick_area": all faces whose middle lies inside a polygon of pixels (a box has four). Hidden
+/// ones only with `through`.
 struct PickArea {
     View view = View::part;
     std::vector<glm::dvec2> polygon;
@@ -285,8 +308,8 @@ struct SelectVertices {
     std::vector<int> vertices;
     PickMode mode = PickMode::replace;
 }; ///< "select_vertices"
-/// "pick_vertex": the vertex in sight that is nearest to a pixel; with `boundary` of the outline and the holes only, where
-/// sharp turns go before the others.
+/// "pick_vertex": the vertex in sight that is nearest to a pixel; with `boundary` of the outline
+/// and the holes only, where sharp turns go before the others.
 struct PickVertex {
     View view = View::part;
     glm::dvec2 pixel{0};
@@ -295,7 +318,8 @@ struct PickVertex {
     bool boundary = false;
     double reach = 12; ///< pixels
 };
-struct UseVerticesAsCorners {}; ///< "use_vertices_as_corners": four picked ones of the outline become those of the grid
+struct UseVerticesAsCorners {}; ///< "use_vertices_as_corners": four picked ones of the outline
+                                ///< become those of the grid
 struct GrowSelection {};        ///< "grow_selection": by one ring of faces
 struct ShrinkSelection {};      ///< "shrink_selection"
 struct InvertSelection {};      ///< "invert_selection"
@@ -313,7 +337,8 @@ struct ChangeRegion {
 struct RemoveRegion {
     int region = 0;
 }; ///< "remove_region"
-/// "set_contact": what the tool on a region does: contact {force_N or pressure_MPa, friction}; null: nothing.
+/// "set_contact": what the tool on a region does: contact {force_N or pressure_MPa, friction};
+/// null: nothing.
 struct SetContact {
     int region = 0;
     std::optional<ToolContact> contact;
@@ -323,8 +348,8 @@ struct SetOwnSheet {
     int region = 0;
     std::optional<OwnSheet> sheet;
 };
-/// "add_line": kind ("drawbead", "pilot"), name (may be empty), point [[x, y, z], ...], force_N_mm or shape {radius,
-/// shoulder_radius, depth, friction}
+/// "add_line": kind ("drawbead", "pilot"), name (may be empty), point [[x, y, z], ...], force_N_mm
+/// or shape {radius, shoulder_radius, depth, friction}
 struct AddLine {
     ProcessLine line;
 };
@@ -336,7 +361,8 @@ struct RemoveLine {
     int number = 0;
 };                     ///< "remove_line"
 struct PinVertices {}; ///< "pin_vertices": a pilot at each picked vertex
-/// "set_process": edge_restraint (share of the lock force), rolling (direction; null: isotropic in the plane)
+/// "set_process": edge_restraint (share of the lock force), rolling (direction; null: isotropic in
+/// the plane)
 struct SetProcess {
     double edge_restraint = 0;
     std::optional<Eigen::Vector3d> rolling;
@@ -357,8 +383,9 @@ struct DrawSection {
     glm::dvec2 from{0}, to{0}, size{0};
 };
 struct ClearSection {}; ///< "clear_section"
-/// "add_measurement": kind ("distance", "angle", "faces", "circle", "rounding"), at [{face, barycentric}, ...]: 2, 3, 2, 3 or 1 places,
-/// on: the view, whose faces they are on ("part" if not given)
+/// "add_measurement": kind ("distance", "angle", "faces", "circle", "rounding"), at [{face,
+/// barycentric}, ...]: 2, 3, 2, 3 or 1 places, on: the view, whose faces they are on ("part" if not
+/// given)
 struct AddMeasurement {
     Measurement measurement;
 };
@@ -375,8 +402,9 @@ struct SetDisplay {
 struct SetViewSettings {
     ViewSettings view;
 }; ///< "set_view": no matter of undo
-/// "set_preferences": dark, interface_percent (75 to 200), lengths ("mm", "inch"), material (empty: none is chosen), thickness_mm, map
-/// and tolerance_mm (null: none is chosen); parts that are opened from then on begin with them. No matter of undo.
+/// "set_preferences": dark, interface_percent (75 to 200), lengths ("mm", "inch"), material (empty:
+/// none is chosen), thickness_mm, map and tolerance_mm (null: none is chosen); parts that are
+/// opened from then on begin with them. No matter of undo.
 struct SetPreferences {
     Preferences preferences;
 };
@@ -394,8 +422,10 @@ struct LookFromSide {
 };
 struct FlyTo {
     int face = 0;
-};                  ///< "fly_to": every view shows this face in its middle, with a mark; what is picked stays
-struct HideSpot {}; ///< "hide_spot": the mark of fly_to goes, and the views that were not moved since go back
+};                  ///< "fly_to": every view shows this face in its middle, with a mark; what is
+                    ///< picked stays
+struct HideSpot {}; ///< "hide_spot": the mark of fly_to goes, and the views that were not moved
+                    ///< since go back
 struct FlyToVertex {
     int vertex = 0;
 }; ///< "fly_to_vertex": likewise; what is picked stays
@@ -405,11 +435,13 @@ struct ShowFault {
     int finding = 0, entry = 0;
 };
 struct HideFault {}; ///< "hide_fault": its mark goes, the views stay
-/// "show_refused": the view of the part shows the mesh of the file that was refused while the part was open.
+/// "show_refused": the view of the part shows the mesh of the file that was refused while the part
+/// was open.
 struct ShowRefused {};
 struct CloseRefused {}; ///< "close_refused": back to the part, and no more of the refused file
 
-/// "keep_reference": the blank that there is, for later ones to be compared with; name may be empty. Not kept in projects.
+/// "keep_reference": the blank that there is, for later ones to be compared with; name may be
+/// empty. Not kept in projects.
 struct KeepReference {
     std::string name;
 };
@@ -421,8 +453,8 @@ struct Redo {}; ///< "redo"
 struct OpenProject {
     std::filesystem::path file;
 }; ///< "open_project"
-/// "take_opened": the file that is read and waits takes the place of the part, whose work is not saved; without_saving: also where it
-/// still is not
+/// "take_opened": the file that is read and waits takes the place of the part, whose work is not
+/// saved; without_saving: also where it still is not
 struct TakeOpened {
     bool without_saving = false;
 };
@@ -438,7 +470,8 @@ struct ExportFiles {
 struct WriteReport {
     std::filesystem::path file;
     ViewerReportOptions options;
-}; ///< "write_report": HTML; options: title, remarks, pictures, standard_look, tables {key_figures, ...}
+};  ///< "write_report": HTML; options: title, remarks, pictures, standard_look, tables
+    ///< {key_figures, ...}
 /// "screenshot" (PNG); no view: the window. Without a size it is as large as on the screen.
 struct Screenshot {
     std::filesystem::path file;
@@ -447,8 +480,9 @@ struct Screenshot {
     bool legend = true, labels = true; ///< of a view; the window shows what it shows
     bool transparent = false;          ///< ground of a view; else that of the theme
 };
-/// "animation", in the background: the unfolding from the part to the blank, as many pictures in as many seconds, and back again if asked
-/// for. A GIF that repeats, or where the file is called .png, numbered pictures beside each other.
+/// "animation", in the background: the unfolding from the part to the blank, as many pictures in as
+/// many seconds, and back again if asked for. A GIF that repeats, or where the file is called .png,
+/// numbered pictures beside each other.
 struct SaveAnimation {
     std::filesystem::path file;
     int frames = 48; ///< from the part to the blank

@@ -16,11 +16,11 @@ struct ViewerModel::Apply {
     Document& document = state.document;
     Session& session = document.session;
 
-    /// Before every change that undo brings back. @throws InputError while another file is being read, which takes the place of
-    /// what would be changed
+    /// Before every change that undo brings back. @throws InputError while another file is being
+    /// read, which takes the place of what would be changed
     void change(std::string name, bool merge = false);
-    /// Runs what a change of options has just asked for: cancelled before it has brought anything, the change is taken back, so that
-    /// options and results agree.
+    /// Runs what a change of options has just asked for: cancelled before it has brought anything,
+    /// the change is taken back, so that options and results agree.
     /// @param unsaved  whether there was unsaved work before the change
     void run_of_change(Stage to, const std::string& title, bool unsaved);
     const PartFile& part() const
@@ -44,7 +44,8 @@ struct ViewerModel::Apply {
     void operator()(const OpenPart& action);
     /// By itself, whatever project waits for its part. @param note  see Opening
     void open_part(const OpenPart& action, std::string note = {});
-    /// Reads the part anew with other options, and runs the chain from there up to a stage; undo brings the old ones back.
+    /// Reads the part anew with other options, and runs the chain from there up to a stage; undo
+    /// brings the old ones back.
     template <class Edit> void read_again(std::string name, const Edit& edit, Stage to = Stage::read);
     void operator()(const SetUnit& action);
     void operator()(const SetReading& action);

@@ -91,7 +91,8 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         model.next_ = action.stage;
         return;
     }
-    // Asked for by name, the one-step solve takes the place of the blank of the steps; else only where that does not hold.
+    // Asked for by name, the one-step solve takes the place of the blank of the steps; else only
+    // where that does not hold.
     const bool instead = session.options.steps && action.stage == Stage::solve;
     if (!instead && (!first_stale(document) || *first_stale(document) > action.stage)) {
         const bool fixed = std::any_of(document.regions.begin(), document.regions.end(),
@@ -118,7 +119,8 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     }
     const bool unsaved = state.unsaved;
     change(action.stage == Stage::solve ? run_names[0] : run_names[1]);
-    state.unsaved = unsaved; // what is computed comes again by one key: it is no work that could be lost
+    state.unsaved = unsaved; // what is computed comes again by one key: it is no work that could be
+                             // lost
     if (instead) {
         session.options.steps.reset();
         model.say(Severity::hint, "The one-step blank is used again. The blank of the steps is kept with them.");
@@ -214,8 +216,8 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
     std::array<int, 4> corners = corners_now();
     const int in_file = number_of(part(), action.vertex);
     for (int k = 0; k < 4; ++k)
-        if (k != action.corner &&
-            corners[size_t(k)] == in_file) { // two corners at one place: the mouse is on its way past the other one
+        // two corners at one place: the mouse is on its way past the other one
+        if (k != action.corner && corners[size_t(k)] == in_file) {
             if (!action.dragging && session.grid)
                 model.run_to(Stage::fit, "Making the grid");
             return;

@@ -28,7 +28,8 @@ void ViewerModel::Apply::operator()(const OpenProject& action)
 {
     require_no_export();
     Project project = open_project(action.file, model.assets() / "materials");
-    const bool left_behind = is_autosave(action.file); // of a part without a project `recovers` is empty
+    const bool left_behind = is_autosave(action.file); // of a part without a project `recovers` is
+                                                       // empty
     Opening opening{project.document, {}, left_behind ? project.recovers : action.file, left_behind};
     opening.project = std::move(project);
     const std::filesystem::path file = opening.document.session.file;

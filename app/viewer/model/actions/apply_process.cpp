@@ -20,7 +20,8 @@ template <class Edit> void ViewerModel::Apply::change_process(std::string name, 
     document = std::move(edited);
 }
 
-/// What only judges a sheet takes effect at once, as SetLimits does: the blank need not be made anew.
+/// What only judges a sheet takes effect at once, as SetLimits does: the blank need not be made
+/// anew.
 void ViewerModel::Apply::change_material(std::string name, const std::function<void(Document&)>& edit)
 {
     change_process(std::move(name), false, edit);
@@ -35,7 +36,8 @@ void ViewerModel::Apply::change_material(std::string name, const std::function<v
 void ViewerModel::Apply::operator()(const SetMaterial& action)
 {
     const Grade* grade = grade_called(*state.grades, action.material);
-    const std::string reference = grade && grade->own ? grade->reference : action.material; // a file keeps its meaning
+    // a file keeps its meaning
+    const std::string reference = grade && grade->own ? grade->reference : action.material;
     const Material material = find_material(reference, model.assets() / "materials");
     change_material("Change material", [&](Document& edited) {
         edited.material = reference;

@@ -11,7 +11,8 @@
 namespace spia::viewer {
 namespace {
 
-/// With all triangles of the faces of the file that some are of: a script of steps names no halves of quads.
+/// With all triangles of the faces of the file that some are of: a script of steps names no halves
+/// of quads.
 std::vector<int> whole_faces(const PartFile& part, const std::vector<int>& triangles)
 {
     if (part.source_face.empty())

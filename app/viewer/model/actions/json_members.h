@@ -22,8 +22,8 @@
 ///     template <> inline constexpr auto members_of<Probe> =
 ///         std::tuple{required("face", &Probe::face, Between{0, most}), member("barycentric", &Probe::barycentric)};
 ///
-/// Reading is strict (an unknown member or a wrong type is an InputError that names the place and what is allowed there)
-/// and partial: what is not given keeps the value it has.
+/// Reading is strict (an unknown member or a wrong type is an InputError that names the place and
+/// what is allowed there) and partial: what is not given keeps the value it has.
 namespace spia::viewer {
 
 /// Bounds of a number, both allowed. Not given is allowed, too.

@@ -305,8 +305,8 @@ inline constexpr auto members_of<Preferences> =
                member("tolerance_mm", &Preferences::tolerance_mm, Between{1e-9, most_mm}),
                member("mouse", &Preferences::mouse)};
 
-/// Takes over what `wanted` has otherwise than `seen`: two changes of different members made at the same time, each from
-/// what was seen then, both count.
+/// Takes over what `wanted` has otherwise than `seen`: two changes of different members made at the
+/// same time, each from what was seen then, both count.
 template <class T> void take_changes(const T& seen, const T& wanted, T& now)
 {
     const auto take = [](const auto& was, const auto& is, auto& taken) {

@@ -7,7 +7,8 @@
 
 namespace spia::viewer {
 
-/// What pressing a doubt's button does, made of the document as it is now; nothing where it has none.
+/// What pressing a doubt's button does, made of the document as it is now; nothing where it has
+/// none.
 std::vector<Action> actions_of(const Doubt& doubt, const Document& document);
 
 /// The field that the button shows, if that is all it does.

@@ -30,7 +30,8 @@ namespace {
 
 constexpr std::string_view schema = "spia-script/1";
 
-/// An action's name and members; `inner`, if it is not null, is the only member of the action, and the members are its.
+/// An action's name and members; `inner`, if it is not null, is the only member of the action, and
+/// the members are its.
 template <class T, class Inner, class... M> struct Form {
     std::string_view name;
     Inner T::*inner;

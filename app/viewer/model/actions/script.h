@@ -20,11 +20,11 @@
 ///       {"do": "expect", "at": "/figures/result/thinning_max", "above": 0.05, "below": 0.5}
 ///     ]}
 ///
-/// An action has the members of its struct in actions.h; set_grid, set_display, set_view and add_probe those of the struct
-/// in it. What is not given keeps its default; in set_grid, set_display, set_view, change_region and change_step
-/// its present value.
-/// Vectors are lists of numbers, turns w, x, y, z; enumerations have the names of names.h. Comments are allowed. Paths
-/// count from the folder in which the program was started.
+/// An action has the members of its struct in actions.h; set_grid, set_display, set_view and
+/// add_probe those of the struct in it. What is not given keeps its default; in set_grid,
+/// set_display, set_view, change_region and change_step its present value.
+/// Vectors are lists of numbers, turns w, x, y, z; enumerations have the names of names.h. Comments
+/// are allowed. Paths count from the folder in which the program was started.
 namespace spia::viewer {
 
 /// @param present  what members that are not given keep
@@ -42,7 +42,8 @@ Json to_json(const Action& action);
 
 /// "wait": until the running job has ended.
 struct Wait {
-    std::optional<double> seconds; ///< at most; then the script fails. Not given: as long as it takes
+    std::optional<double> seconds; ///< at most; then the script fails. Not given: as long as it
+                                   ///< takes
 };
 
 /// "expect": something of the state report (state_report.h). All that is given must hold.
@@ -52,7 +53,8 @@ struct Expect {
     std::optional<double> above, below; ///< both excluded
     std::optional<double> near;         ///< with a tolerance
     std::optional<double> tolerance;    ///< allowed distance from `near`
-    std::optional<Json> contains;       ///< a part of a text, an entry of a list, a member of an object
+    std::optional<Json> contains;       ///< a part of a text, an entry of a list, a member of an
+                                        ///< object
     std::optional<bool> exists;         ///< whether there is anything at all
 };
 

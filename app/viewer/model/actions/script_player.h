@@ -13,7 +13,8 @@ namespace spia::viewer {
 class ScriptFailed : public Error {
 public:
     ScriptFailed(int code, const std::string& text) : Error(text), exit_code(code) {}
-    int exit_code; ///< of the program: 1 an expectation does not hold, or a job takes too long; 2 the script is at fault
+    int exit_code; ///< of the program: 1 an expectation does not hold, or a job takes too long; 2
+                   ///< the script is at fault
 };
 
 /// Replays the steps of a script, one per frame.

@@ -99,7 +99,8 @@ bool blank_holds(const Document& document)
 
 double share_of_time(Stage from, Stage to)
 {
-    // Of the drawn cone, the solver takes 72 % of the time and the fit 21 %, of a face 95 % and 4 %, of the recliner bracket 10 % and 85 %.
+    // Of the drawn cone, the solver takes 72 % of the time and the fit 21 %, of a face 95 % and 4
+    // %, of the recliner bracket 10 % and 85 %.
     constexpr double share[] = {0.05, 0.6, 0.08, 0.02, 0.25};
     double sum = 0;
     for (const Stage stage : chain)
@@ -174,7 +175,8 @@ ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, 
             ended(result);
     };
     ChainWishes wishes;
-    wishes.thickness = result.session.options.flatten.thickness; // the document takes that of a part
+    // the document takes that of a part
+    wishes.thickness = result.session.options.flatten.thickness;
     try {
         const ChainRun run = run_chain(result.session, from, to, wishes, hooks);
         if (run.failure)

@@ -9,8 +9,8 @@
 
 namespace spia::viewer {
 
-/// The first stage whose result is missing or was made with other options than are wanted now; none if all is up to date.
-/// Old results stay to be looked at until newer ones take their place.
+/// The first stage whose result is missing or was made with other options than are wanted now; none
+/// if all is up to date. Old results stay to be looked at until newer ones take their place.
 std::optional<Stage> first_stale(const Document& document);
 
 /// Whether a blank of steps is still that of the document's list.
@@ -29,7 +29,8 @@ struct ChainResult {
     std::optional<Stage> failed; ///< the stage that has no result
     std::string message;         ///< why, in words
     bool cancelled = false;
-    /// Of a part that has just been read, to find the picks of the one before; made here because it takes a while.
+    /// Of a part that has just been read, to find the picks of the one before; made here because it
+    /// takes a while.
     std::shared_ptr<const ClosestPointSearch> search;
     std::shared_ptr<const PartFile> refused; ///< the part, if its mesh was the reason
 };
@@ -38,16 +39,18 @@ struct ChainResult {
 double share_of_time(Stage from, Stage to);
 
 /// Runs the stages from `from` to `to` and notes the options they are made with; never throws. What
-/// a cancelled or failed run has finished is kept. The deformation of the session is left out: it is
-/// of the surface that there was.
+/// a cancelled or failed run has finished is kept. The deformation of the session is left out: it
+/// is of the surface that there was.
 /// @param ended  called on this thread after every stage, with all that has been finished so far
 ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
                          const std::function<void(const ChainResult&)>& ended = {});
 
-/// What to do about a stage that failed, in one sentence. @param options  that it was to be made with
+/// What to do about a stage that failed, in one sentence. @param options that it was to be made
+/// with
 std::string advice(Stage failed, const SessionOptions& options);
 
-/// What to do about a blank that solves a weaker system than wanted, in one sentence; empty for the strict one.
+/// What to do about a blank that solves a weaker system than wanted, in one sentence; empty for the
+/// strict one.
 std::string advice(const SolveReport& report);
 
 } // namespace spia::viewer

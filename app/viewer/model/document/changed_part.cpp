@@ -8,9 +8,12 @@
 namespace spia::viewer {
 namespace {
 
-constexpr double reach_of_diagonal = 0.01; ///< how far a surface may have moved and still be the same place
-constexpr double beside_of_edge = 0.05;    ///< of its mean edge, how far a face's middle may lie beside a patch
-constexpr double least_cosine = 0.5; ///< 60 degrees between the normals of one place: coarse faces cut across a bend
+constexpr double reach_of_diagonal = 0.01; ///< how far a surface may have moved and still be the
+                                           ///< same place
+constexpr double beside_of_edge = 0.05;    ///< of its mean edge, how far a face's middle may lie
+                                           ///< beside a patch
+constexpr double least_cosine = 0.5;       ///< 60 degrees between the normals of one place: coarse
+                                           ///< faces cut across a bend
 
 } // namespace
 

@@ -12,18 +12,23 @@ namespace spia::viewer {
 Eigen::Matrix3d corners_of(const TriMesh& mesh, int triangle);
 Eigen::Vector3d unit_normal(const Eigen::Matrix3d& corners);
 
-/// A part that is not the one on which something was picked (meshed anew, renumbered, a flange moved), prepared for finding the
-/// old places on it.
+/// A part that is not the one on which something was picked (meshed anew, renumbered, a flange
+/// moved), prepared for finding the old places on it.
 class ChangedPart {
 public:
     /// @param search  of this mesh
     ChangedPart(const TriMesh& mesh, const ClosestPointSearch& search);
 
     const ClosestPointSearch& search() const { return search_; }
-    double reach() const { return reach_; } ///< mm, how far a surface may have moved and still be the same place
+    double reach() const
+    {
+        return reach_;
+    } ///< mm, how far a surface may have moved and still be
+      ///< the same place
     /// The place on the new part that an old one has become. Face -1 if there is none.
     ClosestPoint find(const Eigen::Vector3d& at, const Eigen::Vector3d& normal) const;
-    /// The new faces of an old patch. @param lost how many of its triangles have no counterpart, and where the first was
+    /// The new faces of an old patch. @param lost how many of its triangles have no counterpart,
+    /// and where the first was
     std::vector<int> find(const StoredPatch& patch, int& lost, Eigen::Vector3d& where) const;
     /// The vertex of the outer boundary that an old corner has become; -1 if there is none.
     int find_corner(const Eigen::Vector3d& at) const;

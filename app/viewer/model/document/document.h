@@ -44,7 +44,8 @@ enum class MeasureKind {
     angle,    ///< at the second of three places
     faces,    ///< between two faces: how far the sheet turns from one to the other
     circle,   ///< through three places
-    rounding  ///< the cylinder through the rounded piece of sheet around a place, else its curvature there
+    rounding  ///< the cylinder through the rounded piece of sheet around a place, else its
+              ///< curvature there
 };
 std::string_view name(MeasureKind kind);
 size_t places_of(MeasureKind kind); ///< how many are picked
@@ -53,11 +54,13 @@ struct Measured;
 struct Measurement {
     MeasureKind kind = MeasureKind::distance;
     std::vector<Probe> at;
-    View on = View::part;                       ///< whose faces `at` means, see measured_mesh() in measuring.h
+    View on = View::part;                       ///< whose faces `at` means, see measured_mesh() in
+                                                ///< measuring.h
     std::shared_ptr<const Measured> found = {}; ///< never null in a document, see measuring.h
 };
 
-/// A line drawn in a view: the field is plotted along the cut of the plane through it and the direction of sight.
+/// A line drawn in a view: the field is plotted along the cut of the plane through it and the
+/// direction of sight.
 struct SectionLine {
     Eigen::Vector3d from{0, 0, 0}, to{0, 0, 0}; ///< mm, at the depth of what was under the mouse
     Eigen::Vector3d depth{0, 0, -1};            ///< the direction of sight
@@ -70,8 +73,10 @@ struct SectionLine {
 struct FieldDisplay {
     Field field = Field::thinning;
     bool per_face = false;
-    std::optional<std::array<double, 2>> range; ///< in the unit of the field; not given: its least and greatest value
-    std::optional<ColourMap> map;               ///< not given: diverging where zero matters, else viridis
+    std::optional<std::array<double, 2>> range; ///< in the unit of the field; not given: its least
+                                                ///< and greatest value
+    std::optional<ColourMap> map;               ///< not given: diverging where zero matters, else
+                                                ///< viridis
     int bands = 0;                              ///< 0: smooth
     bool isolines = false;
     bool extremes = true;    ///< mark least and greatest
@@ -92,19 +97,24 @@ enum class SheetSource {
 /// Whether somebody says it.
 inline bool is_given(SheetSource from) { return from != SheetSource::assumed && from != SheetSource::before; }
 
-/// What the user made: everything that undo brings back and a project file keeps. A copy is cheap, results are shared.
+/// What the user made: everything that undo brings back and a project file keeps. A copy is cheap,
+/// results are shared.
 struct Document {
-    Session session;                     ///< its options are what is wanted; results may be older, see first_stale()
-    SessionOptions made_with;            ///< the options that the results of the session were made with
+    Session session;                     ///< its options are what is wanted; results may be older,
+                                         ///< see first_stale()
+    SessionOptions made_with;            ///< the options that the results of the session were made
+                                         ///< with
     std::string material = "mild_steel"; ///< a built-in grade, or the path of a material file
     SheetSource material_from = SheetSource::assumed, thickness_from = SheetSource::assumed;
     std::vector<int> selected;                 ///< faces of the part, ascending
     std::vector<int> vertices;                 ///< picked ones of the part, ascending
-    std::vector<int> controls, lattice_points; ///< picked handles of the surface, ascending; see handles.h
+    std::vector<int> controls, lattice_points; ///< picked handles of the surface, ascending; see
+                                               ///< handles.h
     std::vector<FaceRegion> regions;
     std::vector<ProcessLine> lines;
     double edge_restraint = 0;              ///< of the outer edge, as a share of the lock force
-    std::optional<Eigen::Vector3d> rolling; ///< rolling direction; not given: the sheet is isotropic in its plane
+    std::optional<Eigen::Vector3d> rolling; ///< rolling direction; not given: the sheet is
+                                            ///< isotropic in its plane
     std::vector<Probe> probes;
     std::vector<Measurement> measurements;
     std::optional<SectionLine> section;
@@ -112,7 +122,8 @@ struct Document {
     StepList steps;                            ///< of unfolding step by step
     std::shared_ptr<const Proposal> proposal;  ///< the last one, see still_proposed(); null: none
     std::shared_ptr<const PartBends> bends;    ///< found for the last proposal; null: none yet
-    std::shared_ptr<const StepsRun> unfolding; ///< the last run of steps, see steps_done(); null: none yet
+    std::shared_ptr<const StepsRun> unfolding; ///< the last run of steps, see steps_done(); null:
+                                               ///< none yet
     FieldDisplay display;
 };
 
@@ -121,8 +132,8 @@ struct Document {
 /// @throws InputError if a material is not to be had, or a bead's shape is none
 ProcessConditions process_of(const Document& document, const std::filesystem::path& materials);
 
-/// The force of a drawbead per length, N/mm, as the solver will have it: as given, or of its shape with the sheet in which it
-/// lies. None of a pilot, or if there are no conditions for the solver.
+/// The force of a drawbead per length, N/mm, as the solver will have it: as given, or of its shape
+/// with the sheet in which it lies. None of a pilot, or if there are no conditions for the solver.
 /// @param line  of document.lines
 std::optional<double> bead_force(const Document& document, size_t line);
 

@@ -5,7 +5,8 @@ namespace spia::viewer {
 
 /// What the user chooses about the surface; a project keeps it.
 struct FitChoice {
-    std::optional<double> tolerance = {}; ///< mm, two-sided; not given: the surface runs through the nodes of the grid
+    std::optional<double> tolerance = {}; ///< mm, two-sided; not given: the surface runs through
+                                          ///< the nodes of the grid
     int degree_u = 3, degree_v = 3;       ///< 2 to 5
     CurveEnds ends = CurveEnds::averaged_knots;
     FitParameters parameters = FitParameters::blank;

@@ -153,7 +153,8 @@ Hardening as_law(const Hardening& law, const std::string& name)
     constexpr int points = 60;
     Eigen::VectorXd strain(points), stress(points);
     for (int k = 0; k < points; ++k) {
-        strain[k] = least * std::pow(most / least, double(k) / (points - 1)); // closer where the curve bends
+        // closer where the curve bends
+        strain[k] = least * std::pow(most / least, double(k) / (points - 1));
         stress[k] = flow_stress(law, strain[k]).stress;
     }
     for (const LawFit& fit : fit_hardening(strain, stress))

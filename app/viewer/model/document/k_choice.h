@@ -21,8 +21,8 @@ std::string k_words(const std::optional<KFactor>& k);
 /// What makes the K factor of the options, as in the action set_k_factor; empty: none.
 std::string k_text(const std::optional<KFactor>& k);
 
-/// The figures of a bend by the K factor that is wanted now, also while the blank is yet that of another one. A bend that
-/// is not laid keeps those that the blank has.
+/// The figures of a bend by the K factor that is wanted now, also while the blank is yet that of
+/// another one. A bend that is not laid keeps those that the blank has.
 /// @param bend  of the session's bends
 SheetBend with_wanted_k(const Document& document, const SheetBend& bend);
 

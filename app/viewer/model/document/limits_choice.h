@@ -6,11 +6,14 @@
 
 namespace spia::viewer {
 
-/// How the forming limits are to be judged, as chosen in the window or a project. Strains and shares as fractions.
+/// How the forming limits are to be judged, as chosen in the window or a project. Strains and
+/// shares as fractions.
 struct LimitsChoice {
     LimitsOptions::Source curve = LimitsOptions::Source::automatic;
-    std::filesystem::path table;                          ///< of a curve through points, see read_forming_limit_curve()
-    std::optional<double> n;                              ///< of Keeler-Brazier; not given: that of the material
+    std::filesystem::path table;                          ///< of a curve through points, see
+                                                          ///< read_forming_limit_curve()
+    std::optional<double> n;                              ///< of Keeler-Brazier; not given: that of
+                                                          ///< the material
     std::optional<double> margin;                         ///< not given: as usual for the metal
     double max_thinning = ZoneOptions{}.max_thinning;     ///< of the initial thickness
     double max_thickening = ZoneOptions{}.max_thickening; ///< of the initial thickness

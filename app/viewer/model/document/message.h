@@ -14,15 +14,18 @@ struct ViewerState;
 
 enum class Severity { hint, done, warning, error };
 
-/// What a message speaks of. The message is shown as long as that is so, and comes back where redo brings it back.
+/// What a message speaks of. The message is shown as long as that is so, and comes back where redo
+/// brings it back.
 struct Subject {
     enum class Kind {
         none,    ///< nothing that could change: it stays until it is dismissed
-        results, ///< objects that the document has, see results_of(); gone once one of them is another
+        results, ///< objects that the document has, see results_of(); gone once one of them is
+                 ///< another
         steps,   ///< likewise, the last run of the steps
         refused, ///< likewise, the part that was refused
         change,  ///< a change of the document: gone once that is undone
-        refusal  ///< an action that was refused, or had nothing to do: gone with the next change, whichever
+        refusal  ///< an action that was refused, or had nothing to do: gone with the next change,
+                 ///< whichever
     };
     Kind kind = Kind::none;
     std::vector<std::weak_ptr<const void>> object = {};
@@ -52,11 +55,12 @@ struct Message {
     bool shown() const { return !dismissed && !gone; }
 };
 
-/// Before a run those go that are neither wrong nor about results, which go with what they are about; so do errors of the run before.
+/// Before a run those go that are neither wrong nor about results, which go with what they are
+/// about; so do errors of the run before.
 void dismiss_before_run(std::vector<Message>& messages);
 
-/// What was noted on reading a part: what was done for the user, what is said of the file. Sentences. Those that make the light of
-/// the step amber are said there.
+/// What was noted on reading a part: what was done for the user, what is said of the file.
+/// Sentences. Those that make the light of the step amber are said there.
 std::vector<std::string> notes_on_reading(const PartFile& part);
 
 } // namespace spia::viewer

@@ -12,12 +12,16 @@ namespace spia::viewer {
 /// What a user wants of every part and project; kept in config_folder()/preferences.json.
 struct Preferences {
     bool dark = true;
-    int interface_percent = 100;         ///< letters, fields and panels, of their size for the screen
+    int interface_percent = 100;         ///< letters, fields and panels, of their size for the
+                                         ///< screen
     LengthUnit lengths = LengthUnit::mm; ///< on the screen and in reports: mm or inch
-    std::string material;                ///< grade of parts whose file gives none, see grades.h; empty: none is chosen
+    std::string material;                ///< grade of parts whose file gives none, see grades.h;
+                                         ///< empty: none is chosen
     std::optional<double> thickness_mm;  ///< likewise; null: none is chosen
-    std::optional<ColourMap> map;        ///< of fields; null: diverging where zero matters, else viridis
-    std::optional<double> tolerance_mm;  ///< of the surface from the part; null: it runs through the nodes of the grid
+    std::optional<ColourMap> map;        ///< of fields; null: diverging where zero matters, else
+                                         ///< viridis
+    std::optional<double> tolerance_mm;  ///< of the surface from the part; null: it runs through
+                                         ///< the nodes of the grid
     MouseStyle mouse = MouseStyle::spia; ///< how it moves the camera
 
     friend bool operator==(const Preferences&, const Preferences&) = default;
@@ -29,7 +33,8 @@ struct KeptPreferences {
     std::vector<std::string> left_out; ///< sentences: what of the file could not be taken, and why
 };
 
-/// Those that were kept, member by member: what is not there, unknown or at fault keeps its standard value. No file: the standard ones.
+/// Those that were kept, member by member: what is not there, unknown or at fault keeps its
+/// standard value. No file: the standard ones.
 KeptPreferences read_preferences();
 
 /// @throws ExchangeError if they cannot be written

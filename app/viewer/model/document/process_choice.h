@@ -6,11 +6,12 @@
 
 #include "engine/forming/process/drawbead.h"
 
-/// What the user says about the tools, on regions and lines of the part. process_of() in document.h makes the solver's
-/// conditions of it.
+/// What the user says about the tools, on regions and lines of the part. process_of() in document.h
+/// makes the solver's conditions of it.
 namespace spia::viewer {
 
-/// The tool on a region presses and rubs: a binder on both sides of the sheet, a pad or the punch on one.
+/// The tool on a region presses and rubs: a binder on both sides of the sheet, a pad or the punch
+/// on one.
 struct ToolContact {
     std::optional<double> force_N = {};      ///< along the stamping direction; either this
     std::optional<double> pressure_MPa = {}; ///< or this
@@ -32,7 +33,8 @@ struct ProcessLine {
     LineKind kind = LineKind::drawbead;
     std::string name = {};
     std::vector<Eigen::Vector3d> point = {}; ///< mm, on the part; of a pilot one is enough
-    double force_N_mm = 100;                 ///< of a drawbead, per length; not used where there is a shape
+    double force_N_mm = 100;                 ///< of a drawbead, per length; not used where there is
+                                             ///< a shape
     std::optional<BeadShape> shape = {};     ///< from which the force follows, see drawbead_force()
     friend bool operator==(const ProcessLine&, const ProcessLine&) = default;
 };

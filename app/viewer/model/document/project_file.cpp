@@ -19,7 +19,8 @@ namespace {
 constexpr std::string_view schema_name = "spia-project/";
 constexpr int version = 1;
 
-/// Two ways to a file: they still lead there when the folder of the project, or the project alone, is moved.
+/// Two ways to a file: they still lead there when the folder of the project, or the project alone,
+/// is moved.
 struct StoredPath {
     fs::path file;   ///< relative to the project's folder
     fs::path was_at; ///< absolute
@@ -38,7 +39,8 @@ struct StoredProject {
     std::string material; ///< a grade; empty: of the file
     std::optional<StoredPath> material_file;
     double thickness = 1;
-    SheetSource material_from = SheetSource::chosen, thickness_from = SheetSource::chosen; ///< as older files mean it
+    /// as older files mean it
+    SheetSource material_from = SheetSource::chosen, thickness_from = SheetSource::chosen;
     bool skins = false;
     std::optional<Eigen::Vector3d> direction;
     std::string k_factor; ///< empty: none, or a table

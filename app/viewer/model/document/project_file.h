@@ -7,8 +7,9 @@
 #include "app/viewer/model/document/state.h"
 #include "app/viewer/model/document/stored_picks.h"
 
-/// Project files (*.spia): JSON of the schema "spia-project/1". They keep what the user made and chose, not the results:
-/// opening runs the chain again. Any change of the form raises the version; a file of a newer one is refused.
+/// Project files (*.spia): JSON of the schema "spia-project/1". They keep what the user made and
+/// chose, not the results: opening runs the chain again. Any change of the form raises the version;
+/// a file of a newer one is refused.
 ///
 /// | member | what |
 /// |---|---|
@@ -53,7 +54,8 @@ void save_project(const std::filesystem::path& file, const Document& document, c
                   const std::filesystem::path& recovers = {});
 
 /// @param materials  folder of the built-in grades
-/// @throws InputError  names the file and the place in it: no project, a newer version, damaged, or its material is missing
+/// @throws InputError names the file and the place in it: no project, a newer version, damaged, or
+/// its material is missing
 Project open_project(const std::filesystem::path& file, const std::filesystem::path& materials);
 
 } // namespace spia::viewer

@@ -80,7 +80,8 @@ int try_lock(const fs::path& file)
 
 fs::path lock_of(const fs::path& autosave) { return fs::path(autosave).replace_extension(lock_ending); }
 
-/// The work first, then its lock: with the lock gone but the work there, it would count as left behind.
+/// The work first, then its lock: with the lock gone but the work there, it would count as left
+/// behind.
 void remove_both(fs::path& file, int& lock) noexcept
 {
     std::error_code ignored;
@@ -135,7 +136,8 @@ void Autosave::save(const Document& document, const ViewSettings& view, const fs
     if (lock_ < 0) {
         const fs::path folder = state_folder();
         make_folder(folder);
-        for (int attempt = 0; lock_ < 0 && attempt < 1000; ++attempt) { // a number may be that of a crashed program
+        // a number may be that of a crashed program
+        for (int attempt = 0; lock_ < 0 && attempt < 1000; ++attempt) {
             file_ = folder / fmt::format("{}{}-{}{}", autosave_start, ::getpid(), attempt, project_ending);
             std::error_code ignored;
             if (!fs::exists(file_, ignored))

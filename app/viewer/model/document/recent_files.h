@@ -7,24 +7,27 @@
 
 #include "app/viewer/model/document/state.h"
 
-/// What the program remembers from one start to the next: the files opened last, in config_folder()/recent.json, and the
-/// work of a program that ended without saying so, in state_folder().
+/// What the program remembers from one start to the next: the files opened last, in
+/// config_folder()/recent.json, and the work of a program that ended without saying so, in
+/// state_folder().
 namespace spia::viewer {
 
-/// $XDG_CONFIG_HOME/spia, by default ~/.config/spia; $XDG_STATE_HOME/spia, by default ~/.local/state/spia. They need not be there.
+/// $XDG_CONFIG_HOME/spia, by default ~/.config/spia; $XDG_STATE_HOME/spia, by default
+/// ~/.local/state/spia. They need not be there.
 /// @throws ExchangeError if there is no home folder either
 std::filesystem::path config_folder();
 std::filesystem::path state_folder();
 
-/// Parts and projects opened last, the newest first, at most ten; files that are gone are left out. A list that cannot be
-/// read counts as empty: no reason to stop anybody.
+/// Parts and projects opened last, the newest first, at most ten; files that are gone are left out.
+/// A list that cannot be read counts as empty: no reason to stop anybody.
 std::vector<std::filesystem::path> recent_files();
 
 /// Puts a file in front. @throws ExchangeError if the list cannot be written
 void remember_recent(const std::filesystem::path& file);
 
-/// The work of this program, saved beside what the user saves. The kernel holds a lock for it as long as this lives, however
-/// the program ends; only clear() removes the work, not the destructor: that runs after an error, too.
+/// The work of this program, saved beside what the user saves. The kernel holds a lock for it as
+/// long as this lives, however the program ends; only clear() removes the work, not the destructor:
+/// that runs after an error, too.
 class Autosave {
 public:
     Autosave() = default;
@@ -43,7 +46,8 @@ private:
     int lock_ = -1;              ///< descriptor
 };
 
-/// Work that a program left behind. While this lives no other program finds it; nothing is removed but by discard().
+/// Work that a program left behind. While this lives no other program finds it; nothing is removed
+/// but by discard().
 class UnfinishedSession {
 public:
     UnfinishedSession(std::filesystem::path file, int lock) : file_(std::move(file)), lock_(lock) {}

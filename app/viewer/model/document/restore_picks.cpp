@@ -149,7 +149,8 @@ public:
     StepList steps(const StoredSteps& stored)
     {
         std::vector<std::vector<int>> patch;
-        std::vector<char> taken(size_t(part_.mesh.triangles()), 0); // a face of a changed part may lie over two patches
+        // a face of a changed part may lie over two patches
+        std::vector<char> taken(size_t(part_.mesh.triangles()), 0);
         for (const StoredPatch& each : stored.patch) {
             patch.emplace_back();
             for (const int f : faces(each, "the steps of unfolding"))
@@ -281,7 +282,8 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
     restored.lines = restorer.lines(picks.lines);
     restored.steps = restorer.steps(picks.steps);
     restored.proposal = nullptr;
-    if (same && picks.steps.proposed && !restored.steps.empty()) // another part would be planned otherwise
+    // another part would be planned otherwise
+    if (same && picks.steps.proposed && !restored.steps.empty())
         restored.proposal =
             std::make_shared<Proposal>(Proposal{document.session.part, picks.steps.root.value_or(-1), restored.steps});
     restored.probes.clear();

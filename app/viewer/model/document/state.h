@@ -43,11 +43,12 @@ enum class HandleKind { control, lattice };
 /// What the colours of the NURBS surface say.
 enum class SurfaceLook {
     plain,
-    deviation,      ///< its distance from the part
-    tolerance,      ///< likewise, in three bands: within the tolerance, below and above it
-    patches,        ///< no two neighbours in the same colour
-    zebra,          ///< stripes as lamps would throw them: a kink where they break, a jump in curvature where they bend
-    mean_curvature, ///< 1/mm
+    deviation,          ///< its distance from the part
+    tolerance,          ///< likewise, in three bands: within the tolerance, below and above it
+    patches,            ///< no two neighbours in the same colour
+    zebra,              ///< stripes as lamps would throw them: a kink where they break, a jump in
+                        ///< curvature where they bend
+    mean_curvature,     ///< 1/mm
     gaussian_curvature, ///< 1/mm2
 };
 /// Whether it has a legend.
@@ -74,7 +75,8 @@ struct ViewSettings {
     SurfaceLook surface_look = SurfaceLook::deviation;
     bool quad_quality = true;
     HandleKind handles = HandleKind::control;
-    double unfolded = 0;         ///< 0: the part; k: after step k; between: on the way. See step_position()
+    double unfolded = 0;         ///< 0: the part; k: after step k; between: on the way. See
+                                 ///< step_position()
     std::optional<int> step;     ///< the chosen one, from 0: its faces are marked
     bool field_on_steps = false; ///< the field of the states instead of the marks
 };
@@ -112,7 +114,8 @@ struct JobView {
 /// What became of the last export.
 struct ExportOutcome {
     std::vector<std::filesystem::path> files; ///< written
-    std::string error;                        ///< why not all were written; empty: all were, or it was cancelled
+    std::string error;                        ///< why not all were written; empty: all were, or it
+                                              ///< was cancelled
     bool cancelled = false;                   ///< before all were written
 };
 
@@ -138,13 +141,14 @@ struct RefusedFile {
 };
 
 struct ViewerState;
-/// What the mesh doctor's panel is about: the part that was refused, else the one that is there. Null: none.
+/// What the mesh doctor's panel is about: the part that was refused, else the one that is there.
+/// Null: none.
 const PartFile* examined(const ViewerState& state);
 /// Whether the view of the part shows a refused file in the place of the part that is open.
 bool shows_refused(const ViewerState& state);
 
-/// All the window shows. Only a ViewerModel changes it: by actions, with the news of its jobs, and what follows the mouse and the
-/// size of the views.
+/// All the window shows. Only a ViewerModel changes it: by actions, with the news of its jobs, and
+/// what follows the mouse and the size of the views.
 struct ViewerState {
     Document document;
     History history;
@@ -152,24 +156,31 @@ struct ViewerState {
     Preferences preferences;
     JobView job;
     std::vector<Message> messages;
-    std::shared_ptr<const std::vector<Doubt>>
-        doubts;                    ///< what the results are poorer for, see lights.h; null: nothing yet
-    LaterResults before;           ///< those that a grid being made (a corner being dragged) has put out of date
-    std::filesystem::path project; ///< file it was saved to or opened from; empty: none yet
+    std::shared_ptr<const std::vector<Doubt>> doubts; ///< what the results are poorer for, see
+                                                      ///< lights.h; null: nothing yet
+    LaterResults before;                              ///< those that a grid being made (a corner
+                                                      ///< being dragged) has put out of date
+    std::filesystem::path project;                    ///< file it was saved to or opened from;
+                                                      ///< empty: none yet
     bool unsaved = false;
     std::optional<ExportOutcome> exported;   ///< none since the last export was begun
     bool shape_dragged = false;              ///< handles of the surface follow the mouse
     std::optional<int> hovered;              ///< face under the mouse
-    std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
+    std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its
+                                             ///< faults; null: none
     std::optional<RefusedFile> refused_file; ///< whose mesh that is; null: the file of the document
     std::optional<ShownFault> fault;         ///< the one that is looked at
     std::optional<ShownSpot> spot;           ///< likewise a face
     std::optional<std::filesystem::path>
-        read_and_waits; ///< a file that is read and would take the place of work that is not saved: the user is asked
-    std::optional<int> hovered_vertex;                ///< which a click would pick, with a tool for vertices
-    std::optional<FileListing> listing;               ///< the file that is looked into
-    std::shared_ptr<const std::vector<Grade>> grades; ///< that can be chosen, see grades.h; never null
-    std::shared_ptr<const Reference> reference;       ///< an earlier result to be compared with; null: none
+        read_and_waits;                 ///< a file that is read and would take the place of work
+                                        ///< that is not saved: the user is asked
+    std::optional<int> hovered_vertex;  ///< which a click would pick, with a tool for
+                                        ///< vertices
+    std::optional<FileListing> listing; ///< the file that is looked into
+    std::shared_ptr<const std::vector<Grade>> grades; ///< that can be chosen, see grades.h; never
+                                                      ///< null
+    std::shared_ptr<const Reference> reference;       ///< an earlier result to be compared with;
+                                                      ///< null: none
     std::shared_ptr<const Differences> differences;   ///< from it, see comparison.h; null: none
 };
 
@@ -178,8 +189,8 @@ double step_position(const ViewerState& state);
 /// The step that is looked at, if there is one.
 const PlannedStep* step_shown(const ViewerState& state);
 
-/// What the views of quads and surface show: the results of the session, and while newer ones of the same blank are being made,
-/// those before. Null where there is nothing to show.
+/// What the views of quads and surface show: the results of the session, and while newer ones of
+/// the same blank are being made, those before. Null where there is nothing to show.
 LaterResults quads_shown(const ViewerState& state);
 LaterResults surface_shown(const ViewerState& state);
 /// Whether a view shows results of other options than are wanted now.
@@ -188,8 +199,8 @@ bool is_old(const ViewerState& state, View view);
 /// Of a view, for people.
 const char* title(View view);
 
-/// Of the project, else of the part that is there, never of a file that is being read or was refused; with a star where something
-/// is not saved.
+/// Of the project, else of the part that is there, never of a file that is being read or was
+/// refused; with a star where something is not saved.
 std::string window_title(const ViewerState& state);
 /// The view settings as they are once no refused file is shown: what is kept.
 ViewSettings kept_view(const ViewerState& state);

@@ -10,8 +10,8 @@
 namespace spia::viewer {
 namespace {
 
-/// Axis (unit) and angle of the turn of the sheet at a vertex. @param general the axis of the sheet around, for a half turn,
-/// which has none of its own
+/// Axis (unit) and angle of the turn of the sheet at a vertex. @param general the axis of the sheet
+/// around, for a half turn, which has none of its own
 struct Turn {
     Eigen::Vector3d axis;
     double angle;

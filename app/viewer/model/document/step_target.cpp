@@ -42,7 +42,8 @@ StepTarget suggested_target(TargetKind kind, const TriMesh& before, const Planne
     if (const StepTarget target = numbers_of(known); kind_of(target) == kind)
         return target;
     const std::vector<int>& carrying = step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
-    const std::vector<int>& faces = carrying.empty() ? step.pick.freed : carrying; // to begin with, though it be lost
+    // to begin with, though it be lost
+    const std::vector<int>& faces = carrying.empty() ? step.pick.freed : carrying;
     const TargetPlane plane = plane_through(before, faces).plane;
     if (kind == TargetKind::plane)
         return {.plane = plane};

@@ -5,7 +5,8 @@
 #include "engine/mesh/tri_mesh.h"
 #include "engine/unfold/plan/sequence.h"
 
-/// The face onto which a step lays, as users give it: by numbers, as in the script of steps (engine/pipeline/README.md).
+/// The face onto which a step lays, as users give it: by numbers, as in the script of steps
+/// (engine/pipeline/README.md).
 namespace spia::viewer {
 
 struct TargetPlane {
@@ -39,7 +40,8 @@ struct StepTarget {
 enum class TargetKind { fitted, plane, cylinder, cone };
 TargetKind kind_of(const StepTarget& target);
 
-/// Numbers to begin with: those of the planned target where it is of this kind, else a face around what carries it.
+/// Numbers to begin with: those of the planned target where it is of this kind, else a face around
+/// what carries it.
 /// @param before the part before the step
 StepTarget suggested_target(TargetKind kind, const TriMesh& before, const PlannedStep& step);
 
@@ -50,12 +52,13 @@ std::optional<TargetSurface> face_of(const StepTarget& target, const TriMesh& pa
 /// The numbers of a step's own target; of a smooth face, which has none, a fitted one.
 StepTarget numbers_of(const PlannedStep& step);
 
-/// The target of a step before it is run: its own, or the plane, cylinder or cone through the faces that carry it, moved out; none:
-/// it will be a smooth face.
+/// The target of a step before it is run: its own, or the plane, cylinder or cone through the faces
+/// that carry it, moved out; none: it will be a smooth face.
 /// @param before the part as it is then; @throws InputError as moved_out()
 std::optional<TargetSurface> planned_target(const TriMesh& before, const PlannedStep& step);
 
-/// The plane through faces with the least mean square distance, area by area, and how well it goes through them.
+/// The plane through faces with the least mean square distance, area by area, and how well it goes
+/// through them.
 struct PlaneThrough {
     TargetPlane plane;  ///< its normal on the outer side of the faces
     double distance_mm; ///< greatest of their vertices

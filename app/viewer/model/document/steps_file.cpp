@@ -24,7 +24,8 @@ StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
                 fmt::format("No step of {} fits this part: {}", file.filename().string(), read.findings.front()));
         outcome.opened = file;
         outcome.notes = std::move(read.findings);
-        std::stable_partition(outcome.notes.begin(), outcome.notes.end(), // what became of the steps counts most
+        // what became of the steps counts most
+        std::stable_partition(outcome.notes.begin(), outcome.notes.end(),
                               [](const std::string& note) { return note.starts_with("step "); });
         outcome.proposed = step_list(std::move(read.steps));
     } catch (const Cancelled&) {

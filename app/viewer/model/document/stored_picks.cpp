@@ -48,7 +48,8 @@ StoredSteps store_steps(const PartFile& part, const StepList& steps)
     const auto rubbing = [&](const PlannedStep& step) {
         return step.pick.friction ? &step.pick.friction->faces : &nowhere;
     };
-    std::vector<std::string> treated(size_t(part.mesh.triangles()), std::string(steps.size(), '\0')); // by step
+    // by step
+    std::vector<std::string> treated(size_t(part.mesh.triangles()), std::string(steps.size(), '\0'));
     for (size_t k = 0; k < steps.size(); ++k)
         for (const auto& [faces, role] :
              {std::pair(&steps[k]->pick.fixed, is_fixed), std::pair(&steps[k]->pick.freed, is_freed),

@@ -10,14 +10,16 @@
 #include "app/viewer/model/document/step_target.h"
 #include "engine/mesh/closest_point.h"
 
-/// What the user picked on a part, kept so that it is found again: on the same part exactly, by the numbers of the
-/// part's file; on a part that was changed (meshed anew, renumbered, a flange moved) by its geometry.
+/// What the user picked on a part, kept so that it is found again: on the same part exactly, by the
+/// numbers of the part's file; on a part that was changed (meshed anew, renumbered, a flange moved)
+/// by its geometry.
 namespace spia::viewer {
 
 /// Some faces of a part.
 struct StoredPatch {
     std::vector<int> face;     ///< numbers in the file, ascending
-    std::vector<int> piece;    ///< per face: which triangle, where the file's face was split; empty: 0 for all
+    std::vector<int> piece;    ///< per face: which triangle, where the file's face was split;
+                               ///< empty: 0 for all
     Eigen::Matrix3Xd point;    ///< mm, the corners of the triangles
     Eigen::Matrix3Xi triangle; ///< per face, into `point`
 };
@@ -64,7 +66,8 @@ struct StoredStep {
     std::optional<double> extent_mm, tolerance;
     std::optional<int> most_energy_steps, most_newton_steps;
     StepTarget target;
-    std::optional<StepFriction> friction; ///< on the rubbing patches, on all that it moves if there are none
+    std::optional<StepFriction> friction; ///< on the rubbing patches, on all that it moves if there
+                                          ///< are none
     bool carrying_lost = false;           ///< as PlannedStep
 };
 
@@ -91,21 +94,26 @@ struct StoredPicks {
 /// The part that picks belong to. @throws InputError if none is open
 const PartFile& picked_part(const Document& document);
 
-/// The same for two meshes with the same coordinates, triangles and numbers in the file, and practically only for these.
+/// The same for two meshes with the same coordinates, triangles and numbers in the file, and
+/// practically only for these.
 std::string fingerprint(const PartFile& part);
 
 /// @throws InputError if a face is none of the part
 StoredPatch store_patch(const PartFile& part, const std::vector<int>& triangles);
 
-/// @throws InputError if the document has no part, or a pick names a face, vertex or corner that the part does not have
+/// @throws InputError if the document has no part, or a pick names a face, vertex or corner that
+/// the part does not have
 StoredPicks store_picks(const Document& document);
 
-/// Puts the picks into a document whose part has been read: selection, vertices, regions, probes, measurements, and the corners of the
-/// session's options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
-/// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
-/// the outer boundary. A step of unfolding that has no faces to move any more is left out; one that has none left of those
-/// that carried its target is marked so, and friction of which all faces are gone is dropped. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
-/// to its place. A line of the process moves to the nearest places of the part, if all are within those 1 %.
+/// Puts the picks into a document whose part has been read: selection, vertices, regions, probes,
+/// measurements, and the corners of the session's options. On a changed part a face belongs to a
+/// patch where its middle lies on one of the patch's old triangles: no farther off than 1 % of the
+/// part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of the
+/// outer boundary. A step of unfolding that has no faces to move any more is left out; one that has
+/// none left of those that carried its target is marked so, and friction of which all faces are
+/// gone is dropped. A vertex of any boundary is the nearest one there, another one the nearest of
+/// the face that has come to its place. A line of the process moves to the nearest places of the
+/// part, if all are within those 1 %.
 /// @param search  of that part's mesh; null: made if need be
 /// @returns in words what was not found (again); empty if the part is the same, or all was found
 /// @throws InputError if the document has no part, or the picks make no sense

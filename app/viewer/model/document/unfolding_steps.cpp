@@ -85,7 +85,8 @@ StepList as_far_as_the_same(const StepList& list, const UnfoldScript& plan)
     return steps;
 }
 
-/// What stays of a plan that was about to be replaced: it is to go on from there, not to be taken for done.
+/// What stays of a plan that was about to be replaced: it is to go on from there, not to be taken
+/// for done.
 UnfoldRun as_far_as_it_worked(UnfoldRun run)
 {
     const auto poor = std::find_if(run.states.begin(), run.states.end(), [](const auto& s) { return !s.converged; });

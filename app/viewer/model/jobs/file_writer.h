@@ -8,7 +8,8 @@
 
 namespace spia::viewer {
 
-/// Writes files on a thread of its own, in the order in which they are asked for; its end waits for them.
+/// Writes files on a thread of its own, in the order in which they are asked for; its end waits for
+/// them.
 class FileWriter {
 public:
     /// @param wake  called on that thread when a file is written

@@ -105,7 +105,8 @@ void KeptWork::open(ViewerModel& model, const Action& action)
 void KeptWork::follow(ViewerModel& model, bool now_and_then, Clock::time_point now)
 {
     const ViewerState& state = model.state();
-    if (coming_ && model.documents() != coming_->documents) { // it has taken the place of what was open
+    // it has taken the place of what was open
+    if (coming_ && model.documents() != coming_->documents) {
         if (coming_->takes_place) {
             finish(writing_);
             autosave_->clear();

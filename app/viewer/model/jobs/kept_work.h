@@ -11,9 +11,9 @@
 
 namespace spia::viewer {
 
-/// What becomes of work that is not saved in a project: it is kept now and then, and before something else is opened; it is
-/// forgotten once it is saved or another part has taken its place, and offered to the user after a crash.
-/// Files are written on a thread of their own.
+/// What becomes of work that is not saved in a project: it is kept now and then, and before
+/// something else is opened; it is forgotten once it is saved or another part has taken its place,
+/// and offered to the user after a crash. Files are written on a thread of their own.
 class KeptWork {
 public:
     using Clock = std::chrono::steady_clock;
@@ -33,10 +33,11 @@ public:
     void discard();        ///< for good; there may be older work, which is offered next
     void later();          ///< at the next start
 
-    /// Applies OpenPart or OpenProject. The work that is open and not saved is kept, for reading a file may end the program.
+    /// Applies OpenPart or OpenProject. The work that is open and not saved is kept, for reading a
+    /// file may end the program.
     void open(ViewerModel& model, const Action& action);
-    /// Once a frame: forgets the work whose place another part has taken; keeps unsaved work once the hand rests after a change, and
-    /// every 30 s.
+    /// Once a frame: forgets the work whose place another part has taken; keeps unsaved work once
+    /// the hand rests after a change, and every 30 s.
     /// @param now_and_then  whether it does the latter
     void follow(ViewerModel& model, bool now_and_then, Clock::time_point now = Clock::now());
     /// Seconds until follow() has unsaved work to keep.
@@ -59,11 +60,13 @@ private:
 
     static constexpr std::chrono::seconds interval_{30}, rest_{3};
     Clock::time_point last_ = Clock::now(), changed_ = last_;
-    int seen_ = 0, kept_ = 0; ///< states of the document in its history: the newest, and the one that was kept last
+    int seen_ = 0, kept_ = 0; ///< states of the document in its history: the newest, and the one
+                              ///< that was kept last
     std::shared_ptr<Autosave> autosave_ = std::make_shared<Autosave>(); ///< of what is open
     Eventually<bool> writing_;                                          ///< it
-    std::optional<UnfinishedSession> recovered_;                        ///< open now, and not yet kept otherwise
-    std::optional<UnfinishedSession> recovering_;                       ///< being opened
+    /// open now, and not yet kept otherwise
+    std::optional<UnfinishedSession> recovered_;
+    std::optional<UnfinishedSession> recovering_; ///< being opened
     std::optional<UnfinishedSession> offered_;
     std::optional<Offer> offer_;
     std::optional<Coming> coming_;

@@ -51,8 +51,8 @@ void ViewerModel::report_not_opened(const Opening& opening, const ChainResult& r
         fmt::format("{} {}", sentence(why), open == name ? "What is shown stays as it is." : open + " is still open."));
 }
 
-/// What was read for a project whose part is not where it was: if it is another part, it is opened without the project. @returns whether
-/// it is
+/// What was read for a project whose part is not where it was: if it is another part, it is opened
+/// without the project. @returns whether it is
 bool ViewerModel::open_by_itself(const ChainResult& result)
 {
     if (!opening_beside_ || !opening_beside_->otherwise || result.cancelled)
@@ -92,7 +92,8 @@ void ViewerModel::forget_waiting()
     next_in_one_step_ = false;
 }
 
-/// What was read while another part was open takes its place, if it is there. @returns whether it is
+/// What was read while another part was open takes its place, if it is there. @returns whether it
+/// is
 bool ViewerModel::take_opening(const ChainResult& result)
 {
     Opening opening = std::move(*std::exchange(opening_beside_, std::nullopt));
@@ -110,7 +111,8 @@ bool ViewerModel::take_opening(const ChainResult& result)
 
 void ViewerModel::replace_document(Opening opening)
 {
-    if (!opening.project) { // how fields are drawn stays chosen from part to part; each begins with the thinning
+    if (!opening.project) { // how fields are drawn stays chosen from part to part; each begins with
+                            // the thinning
         opening.document.display = state_.document.display;
         opening.document.display.field = FieldDisplay{}.field;
         opening.document.display.range.reset();
@@ -189,7 +191,8 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
     Document& document = state_.document;
     if (!document.session.part)
         return;
-    for (const std::string& lost : restore(document, project.picks, search)) // the rest of the project is sound
+    // the rest of the project is sound
+    for (const std::string& lost : restore(document, project.picks, search))
         say(Severity::warning, lost);
     const bool dark = state_.view.dark; // of the one who opens it, as the mouse's habits are
     const MouseStyle mouse = state_.view.mouse;

@@ -34,7 +34,8 @@ void ViewerModel::take_chain_result()
     }
     if (open_by_itself(result))
         return;
-    if (opening_beside_ && result.session.part && asks_ && state_.unsaved) { // first it is read, then the user is asked
+    // first it is read, then the user is asked
+    if (opening_beside_ && result.session.part && asks_ && state_.unsaved) {
         const Opening& opening = *opening_beside_;
         state_.read_and_waits = opening.project_file.empty() ? opening.document.session.file : opening.project_file;
         waiting_ = std::move(result);
@@ -90,7 +91,8 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed) {
         if (in_one_step)
             document.session.options.steps.reset();
-        const double done = progress_to_ < 1 ? progress_to_ : 0; // 1: it was all that had been asked for then
+        // 1: it was all that had been asked for then
+        const double done = progress_to_ < 1 ? progress_to_ : 0;
         run_to(*next, *next == Stage::solve ? "Unfolding" : "Updating all");
         progress_from_ = state_.job.fraction = done;
         progress_to_ = std::lerp(done, 1, progress_to_);
@@ -99,8 +101,9 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
         run_missing_steps();
 }
 
-/// A run that was cancelled or failed before it had anything new is no change: nothing to take back or to save. If it was to make what a
-/// change of options asks for, that change is taken back with it. @returns whether it was
+/// A run that was cancelled or failed before it had anything new is no change: nothing to take back
+/// or to save. If it was to make what a change of options asks for, that change is taken back with
+/// it. @returns whether it was
 bool ViewerModel::forget_run_without_result(const ChainResult& result, const Session& before)
 {
     const auto unsaved_before = std::exchange(unsaved_before_, std::nullopt);
@@ -126,8 +129,8 @@ bool ViewerModel::forget_run_without_result(const ChainResult& result, const Ses
     return false;
 }
 
-/// A run that has made another grid and went no further leaves the quad mesh and the surface of the last one to be looked at;
-/// where one of them cannot be made of the grid, there is none.
+/// A run that has made another grid and went no further leaves the quad mesh and the surface of the
+/// last one to be looked at; where one of them cannot be made of the grid, there is none.
 void ViewerModel::keep_before(const ChainResult& result, const LaterResults& quads, const LaterResults& surface)
 {
     const Session& session = state_.document.session;
@@ -139,7 +142,8 @@ void ViewerModel::keep_before(const ChainResult& result, const LaterResults& qua
         state_.before = last;
 }
 
-/// The lattice bends whatever surface there is; what control points were moved belongs to the surface they are of.
+/// The lattice bends whatever surface there is; what control points were moved belongs to the
+/// surface they are of.
 /// @param before  the surface that there was; null: none, the moves are those of a project
 /// @returns in words what could not be kept
 static std::vector<std::string> deform_again(Document& document, const std::shared_ptr<const SurfaceStage>& before)
@@ -166,7 +170,8 @@ static std::vector<std::string> deform_again(Document& document, const std::shar
     return lost;
 }
 
-/// Puts the results of a run into a document. On a part that was read otherwise the picks stay where they are in space.
+/// Puts the results of a run into a document. On a part that was read otherwise the picks stay
+/// where they are in space.
 /// @returns in words what was not found again
 std::vector<std::string> ViewerModel::take_over(Document& document, const ChainResult& result) const
 {
@@ -184,7 +189,8 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     document.session.options = std::move(wanted);
     document.made_with = result.made_with;
     std::vector<std::string> lost = deform_again(document, surface_before);
-    if (document.session.blank && document.session.options.limits != document.made_with.limits) { // changed meanwhile
+    // changed meanwhile
+    if (document.session.blank && document.session.options.limits != document.made_with.limits) {
         document.made_with.limits = document.session.options.limits;
         document.session.limits = judge_limits(as_made(document)).limits;
     }
@@ -207,7 +213,8 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     return lost;
 }
 
-/// Picks and, made of them, the process. @returns in words what was not found again, or why nothing was
+/// Picks and, made of them, the process. @returns in words what was not found again, or why nothing
+/// was
 std::vector<std::string> ViewerModel::restore(Document& document, const StoredPicks& picks,
                                               const std::shared_ptr<const ClosestPointSearch>& search) const
 {

@@ -52,7 +52,8 @@ void ViewerModel::say(Severity severity, std::string text, Subject subject)
     Message message{severity, std::move(text)};
     message.subject = std::move(subject);
     if (severity == Severity::error && message.subject.kind == Subject::Kind::none)
-        message.subject = about_refusal(state_); // what could not be done is of the past once something else is
+        message.subject = about_refusal(state_); // what could not be done is of the past once
+                                                 // something else is
     say(std::move(message));
 }
 
@@ -61,7 +62,8 @@ void ViewerModel::say(Message message)
     message.text = sentence(in_viewer_words(std::move(message.text)));
     message.number = ++messages_posted_;
     constexpr size_t most = 50;
-    std::erase_if(state_.messages, [&](const Message& before) { // said again, it is the newest once more
+    // said again, it is the newest once more
+    std::erase_if(state_.messages, [&](const Message& before) {
         return before.severity == message.severity && before.text == message.text &&
                (before.shown() || same(before.subject, message.subject));
     });
@@ -75,7 +77,8 @@ void ViewerModel::follow_messages()
     for (Message& message : state_.messages) {
         message.gone = !holds(message.subject, state_);
         message.dismissed |=
-            message.gone && message.subject.kind == Subject::Kind::refusal; // not to come back with undo
+            // not to come back with undo
+            message.gone && message.subject.kind == Subject::Kind::refusal;
     }
 }
 
@@ -146,7 +149,8 @@ void ViewerModel::run_to(Stage to, const std::string& title)
     const std::optional<Stage> from = first_stale(state_.document);
     std::optional<BlankOfSteps>& steps = state_.document.session.options.steps;
     if (steps && from && *from <= Stage::solve && to >= Stage::solve &&
-        (*from == Stage::read || !holds(state_.document, *steps))) { // what is read may be another part
+        // what is read may be another part
+        (*from == Stage::read || !holds(state_.document, *steps))) {
         steps.reset();
         say(Severity::hint,
             "The steps, the part or its sheet have changed since the blank of the steps was computed; the part is unfolded in one step again.");
@@ -238,10 +242,12 @@ void ViewerModel::follow_list()
     }
 }
 
-/// Whether the running job was cancelled and has not come to its next checkpoint for as long as a person waits without wondering.
+/// Whether the running job was cancelled and has not come to its next checkpoint for as long as a
+/// person waits without wondering.
 bool ViewerModel::waited_long_for_cancel() const
 {
-    constexpr auto waiting_limit = std::chrono::milliseconds(500); // half of the second that a cancel may take
+    // half of the second that a cancel may take
+    constexpr auto waiting_limit = std::chrono::milliseconds(500);
     return cancelled_at_ && std::chrono::steady_clock::now() - *cancelled_at_ > waiting_limit;
 }
 

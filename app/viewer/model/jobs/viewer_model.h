@@ -16,8 +16,8 @@
 
 namespace spia::viewer {
 
-/// The state and all that changes it: actions, the news of jobs, the mouse over a view (hover) and the size of the views.
-/// Knows no window, so that tests do all that users do.
+/// The state and all that changes it: actions, the news of jobs, the mouse over a view (hover) and
+/// the size of the views. Knows no window, so that tests do all that users do.
 class ViewerModel {
 public:
     /// @param assets folder with materials/ and parts/
@@ -29,22 +29,24 @@ public:
     const ViewerState& state() const { return state_; }
     const std::filesystem::path& assets() const { return assets_; }
 
-    /// Carries out one action. What goes wrong becomes a message, never an exception. Screenshot, SaveAnimation, WriteReport and Quit are
-    /// the window's.
+    /// Carries out one action. What goes wrong becomes a message, never an exception. Screenshot,
+    /// SaveAnimation, WriteReport and Quit are the window's.
     void apply(const Action& action);
 
-    /// Takes over the news of the running job; call once per frame. @returns whether anything has changed
+    /// Takes over the news of the running job; call once per frame. @returns whether anything has
+    /// changed
     bool poll();
 
     /// Says something to the user.
     void say(Severity severity, std::string text, Subject subject = {});
     void say(Message message);
 
-    /// The mouse is free again and no text is being typed: the next change is one of its own for undo, whatever its name.
+    /// The mouse is free again and no text is being typed: the next change is one of its own for
+    /// undo, whatever its name.
     void gesture_ended() { state_.history.close(); }
 
-    /// What a view shows at a pixel: the face there becomes the hovered one, and with a tool for vertices the vertex that a
-    /// click would pick.
+    /// What a view shows at a pixel: the face there becomes the hovered one, and with a tool for
+    /// vertices the vertex that a click would pick.
     /// @param reach pixels
     void hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach = PickVertex{}.reach);
     void hover_nothing();
@@ -54,20 +56,22 @@ public:
     /// Whether a job is running; closing the window then cancels it.
     bool exporting() const { return bool(export_job_); }
     bool busy() const { return chain_job_ || export_job_ || steps_job_ || list_job_; }
-    /// How many times a part or project was begun to be opened: an action for that either counts here or leaves all as it was.
+    /// How many times a part or project was begun to be opened: an action for that either counts
+    /// here or leaves all as it was.
     int openings() const { return openings_; }
-    /// How many times another document took the place of the one before: at once where no part was open, else when the new
-    /// part is there.
+    /// How many times another document took the place of the one before: at once where no part was
+    /// open, else when the new part is there.
     int documents() const { return documents_; }
     /// Whether a part or project is being read while the one before is still open.
     bool opening_beside() const { return opening_beside_.has_value(); }
-    /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
-    /// has not been moved since it was fitted is so again.
+    /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the
+    /// design is. A view that has not been moved since it was fitted is so again.
     void resized(View view, glm::dvec2 size, double scale = 1, const Covered& covered = {})
     {
         fitter_.resized(state_, view, size, scale, covered);
     }
-    /// Whether a file that is read waits for TakeOpened or DropOpened where work is not saved; else it takes the place at once.
+    /// Whether a file that is read waits for TakeOpened or DropOpened where work is not saved; else
+    /// it takes the place at once.
     void ask_before_replacing(bool ask) { asks_ = ask; }
 
 private:
@@ -80,9 +84,9 @@ private:
         std::optional<Project> project = {};     ///< null: it is a part
         std::filesystem::path project_file = {}; ///< to be saved to; empty: none
         bool unsaved = false;
-        std::optional<OpenPart> otherwise =
-            {};                ///< a project whose part may be this file: how it is opened if it is not
-        std::string note = {}; ///< said as soon as it is open; empty: nothing
+        std::optional<OpenPart> otherwise = {}; ///< a project whose part may be this file: how it
+                                                ///< is opened if it is not
+        std::string note = {};                  ///< said as soon as it is open; empty: nothing
     };
 
     void start(Stage from, Stage to, std::string title, const Document& document);
@@ -116,7 +120,8 @@ private:
     void follow_list();
     void follow_doubts();    ///< looks anew for what is poor where a result or the sheet is another
     void follow_messages();  ///< those whose subject is no more are gone
-    void follow_reference(); ///< makes the differences anew where a result or the reference is another
+    void follow_reference(); ///< makes the differences anew where a result or the reference is
+                             ///< another
     void show_step(std::optional<int> step, double position);
     void report_steps_run(const StepsOutcome& outcome);
     void part_opened();
@@ -132,7 +137,8 @@ private:
         ending_; ///< cancelled, nobody waits for them; they end by themselves
     using Files = std::vector<std::filesystem::path>;
     std::unique_ptr<Job<Files>> export_job_;
-    std::vector<std::unique_ptr<Job<Files>>> ending_exports_; ///< as ending_; what they had not written they never will
+    /// as ending_; what they had not written they never will
+    std::vector<std::unique_ptr<Job<Files>>> ending_exports_;
     std::shared_ptr<Mailbox<Files>> exported_so_far_;
     std::unique_ptr<Job<StepsOutcome>> steps_job_;
     std::shared_ptr<Mailbox<StepsOutcome>> steps_so_far_; ///< as if they had been cancelled then
@@ -140,7 +146,8 @@ private:
     std::vector<std::unique_ptr<Job<ListedFile>>> ending_lists_; ///< as ending_
     StepList running_list_; ///< the one that it runs, or ran: may have been edited meanwhile
     std::vector<std::unique_ptr<Job<StepsOutcome>>> ending_steps_; ///< as ending_
-    bool steps_next_ = false;                                      ///< run them when the running job has ended
+    /// run them when the running job has ended
+    bool steps_next_ = false;
     std::optional<BlankNext> blank_next_;
     bool keep_step_ = false;                     ///< the one shown is that of a project
     bool keep_cameras_ = false;                  ///< those of a project
@@ -154,14 +161,17 @@ private:
     DoubtsOf doubts_of_;                         ///< what the doubts of the state were found in
     int openings_ = 0, documents_ = 0;
     std::optional<std::chrono::steady_clock::time_point> cancelled_at_; ///< the running job
-    bool opening_ = false;                                              ///< the running job reads a new part
-    std::optional<Opening> opening_beside_;                             ///< while the part before is still open
-    std::optional<Opening>
-        without_part_; ///< a project whose part is not where it was: the next one that is opened may be it
-    std::optional<ChainResult> waiting_; ///< what was read for it, while the user is asked
-    bool asks_ = false;                  ///< see ask_before_replacing()
-    bool run_of_change_ = false;         ///< the running job makes what the last change of options asks for
-    std::optional<Project> project_;     ///< waits for its part
+    /// the running job reads a new part
+    bool opening_ = false;
+    /// while the part before is still open
+    std::optional<Opening> opening_beside_;
+    std::optional<Opening> without_part_; ///< a project whose part is not where it was: the next
+                                          ///< one that is opened may be it
+    std::optional<ChainResult> waiting_;  ///< what was read for it, while the user is asked
+    bool asks_ = false;                   ///< see ask_before_replacing()
+    bool run_of_change_ = false;          ///< the running job makes what the last change of options
+                                          ///< asks for
+    std::optional<Project> project_;      ///< waits for its part
     Pickers pickers_;
     std::optional<Probe> under_mouse_;
 };

@@ -62,7 +62,8 @@ void ViewerModel::show_step(std::optional<int> step, double position)
         fitter_.fit(state_, View::part);
 }
 
-/// Lets the running job of steps end by itself: a file that it has not written by then it never will. @returns what had ended
+/// Lets the running job of steps end by itself: a file that it has not written by then it never
+/// will. @returns what had ended
 StepsOutcome ViewerModel::leave_steps()
 {
     StepsOutcome outcome = steps_so_far_->fetch().value_or(StepsOutcome{});

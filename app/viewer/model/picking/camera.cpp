@@ -14,13 +14,15 @@ namespace {
 constexpr double half_angle = 15 * std::numbers::pi / 180; ///< of the perspective, upwards
 const double slope = std::tan(half_angle);                 ///< of its upper side
 
-constexpr double least_height = 1e-6, greatest_height = 1e9; ///< mm, between an atom's neighbourhood and a country
-constexpr double margin = 1.06;                              ///< of fit(), on each side 3 %
+/// mm, between an atom's neighbourhood and a country
+constexpr double least_height = 1e-6, greatest_height = 1e9;
+constexpr double margin = 1.06; ///< of fit(), on each side 3 %
 
 glm::dvec3 to_glm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d to_eigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-/// From the target to the eye, mm. The orthographic eye stands there too, so both see the target at the same size.
+/// From the target to the eye, mm. The orthographic eye stands there too, so both see the target at
+/// the same size.
 double eye_distance(const Camera& camera) { return camera.height / (2 * slope); }
 
 std::array<glm::dvec3, 8> corners(const Eigen::AlignedBox3d& box)
@@ -50,7 +52,8 @@ DepthRange depth_range(const Camera& camera, const Eigen::AlignedBox3d& box)
     const double room = 0.01 * (far - near) + 0.01 * camera.height;
     near -= room;
     far += room;
-    // A near plane at the eye would leave no depth buffer for the rest. A box around the eye is cut there instead.
+    // A near plane at the eye would leave no depth buffer for the rest. A box around the eye is cut
+    // there instead.
     if (camera.perspective)
         near = std::max(near, distance / 20);
     return {near, far};
@@ -92,7 +95,8 @@ Ray ray_through(const Camera& camera, const Eigen::AlignedBox3d& box, glm::dvec2
     const glm::dmat3 axes = glm::mat3_cast(camera.turn);
     const double distance = eye_distance(camera), near = depth_range(camera, box).near;
     const glm::dvec2 aside = at_target(camera, pixel, size);
-    glm::dvec3 from(aside, distance - near), direction(0, 0, -1); // in the camera's axes, from the target
+    // in the camera's axes, from the target
+    glm::dvec3 from(aside, distance - near), direction(0, 0, -1);
     if (camera.perspective) {
         from = glm::dvec3(aside * (near / distance), distance - near);
         direction = glm::normalize(glm::dvec3(aside, -distance));
@@ -147,7 +151,8 @@ Camera pan(Camera camera, glm::dvec2 drag, glm::dvec2 size)
 
 Camera zoom(Camera camera, double factor, glm::dvec2 pixel, glm::dvec2 size)
 {
-    // In perspective the eye moves along the ray through the pixel, so all that is under it stays there.
+    // In perspective the eye moves along the ray through the pixel, so all that is under it stays
+    // there.
     const glm::dvec2 before = at_target(camera, pixel, size);
     camera.height = std::clamp(camera.height / factor, least_height, greatest_height);
     camera.target += camera.turn * glm::dvec3(before - at_target(camera, pixel, size), 0);
@@ -179,9 +184,10 @@ Camera fit(Camera camera, const Eigen::Matrix3Xd& point, glm::dvec2 size, Margin
     const glm::dvec3 low = to_glm(point.rowwise().minCoeff()), high = to_glm(point.rowwise().maxCoeff()),
                      middle = (low + high) / 2.;
     const glm::dquat into_view = glm::conjugate(camera.turn);
-    // The view's upper side is at `slope` from the line of sight, the borders of what is filled at these. A place (x, y, z)
-    // from the middle is within them if x - a <= right * (d - z) and so on, with the eye at (a, b, d). The tightest two
-    // sides give the least d, and a. In an orthographic view the depth does not matter.
+    // The view's upper side is at `slope` from the line of sight, the borders of what is filled at
+    // these. A place (x, y, z) from the middle is within them if x - a <= right * (d - z) and so
+    // on, with the eye at (a, b, d). The tightest two sides give the least d, and a. In an
+    // orthographic view the depth does not matter.
     const glm::dvec2 greater = 2 * slope / size.y * (size / 2. - glm::dvec2(margins.right, margins.top)),
                      less = 2 * slope / size.y * (size / 2. - glm::dvec2(margins.left, margins.bottom));
     glm::dvec2 most_up(-std::numeric_limits<double>::infinity()), most_down = most_up;
@@ -193,7 +199,8 @@ Camera fit(Camera camera, const Eigen::Matrix3Xd& point, glm::dvec2 size, Margin
     }
     const glm::dvec2 least_distance = (most_up + most_down) / (greater + less);
     const double height = 2 * slope * std::max(least_distance.x, least_distance.y);
-    const double least = std::max(1e-3 * glm::length(high - low), least_height); // a line seen from its end, a point
+    // a line seen from its end, a point
+    const double least = std::max(1e-3 * glm::length(high - low), least_height);
     camera.height = std::clamp(height, least, greatest_height);
     const double distance = eye_distance(camera);
     const glm::dvec2 centre = (most_up - greater * distance - most_down + less * distance) / 2.;

@@ -11,7 +11,8 @@
 namespace spia::viewer {
 namespace {
 
-/// Whether a triangle is met beyond `from` along the ray. One ray at a time, so that no search structure pays.
+/// Whether a triangle is met beyond `from` along the ray. One ray at a time, so that no search
+/// structure pays.
 bool meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& origin,
            const Eigen::Vector3d& direction, double from)
 {
@@ -71,10 +72,12 @@ glm::dquat clear_sight(const TriMesh& mesh, const Eigen::Vector3d& place, const 
 {
     if (mesh.triangles() == 0)
         return turn;
-    const auto beside = 2e-3 * bounding_diagonal(mesh); // mm: what is nearer is the sheet around the place itself
+    const auto beside = 2e-3 * bounding_diagonal(mesh); // mm: what is nearer is the sheet around
+                                                        // the place itself
     const glm::dvec3 z = turn * glm::dvec3(0, 0, 1), y = turn * glm::dvec3(0, 1, 0);
     const Eigen::Vector3d now(z.x, z.y, z.z);
-    const Eigen::Vector3d normal = normal_near(mesh, place); // not a number, which is less than nothing: no area
+    const Eigen::Vector3d normal = normal_near(mesh, place); // not a number, which is less than
+                                                             // nothing: no area
     constexpr double along = 0.1, across = 0.4;              // cosines
     if (!(std::abs(now.dot(normal)) < along) && !hidden(mesh, place, now, beside))
         return turn;

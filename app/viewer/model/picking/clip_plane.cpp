@@ -28,7 +28,8 @@ std::optional<KeptRay> kept_of_ray(const HalfSpace& half, const Eigen::Vector3d&
                                    const Eigen::Vector3d& direction)
 {
     constexpr double endless = std::numeric_limits<double>::infinity();
-    const double start = half.height(origin), slope = half.normal.dot(direction); // height = start + slope t
+    // height = start + slope t
+    const double start = half.height(origin), slope = half.normal.dot(direction);
     if (slope == 0)
         return start >= 0 ? std::optional(KeptRay{0, endless}) : std::nullopt;
     const double meets = -start / slope;

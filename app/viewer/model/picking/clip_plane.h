@@ -13,7 +13,8 @@ struct ClipPlane {
     ClipAxis axis = ClipAxis::x;
     double place_mm = 0;                ///< of the plane along its direction, from the origin
     bool flip = false;                  ///< the lower side goes, else the upper one
-    Eigen::Vector3d direction{0, 0, 1}; ///< unit, of ClipAxis::view: towards the viewer when it was chosen
+    Eigen::Vector3d direction{0, 0, 1}; ///< unit, of ClipAxis::view: towards the viewer when it was
+                                        ///< chosen
 
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
@@ -26,7 +27,8 @@ struct HalfSpace {
     Eigen::Vector3d normal{0, 0, 1}; ///< unit
     double offset = 0;               ///< mm
 
-    double height(const Eigen::Vector3d& place) const { return normal.dot(place) + offset; } ///< mm, above 0: kept
+    /// mm, above 0: kept
+    double height(const Eigen::Vector3d& place) const { return normal.dot(place) + offset; }
     friend bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
@@ -41,7 +43,8 @@ struct KeptRay {
 std::optional<KeptRay> kept_of_ray(const HalfSpace& half, const Eigen::Vector3d& origin,
                                    const Eigen::Vector3d& direction);
 
-/// From where an eye sees a place that is kept: itself, or where its line of sight comes through the plane.
+/// From where an eye sees a place that is kept: itself, or where its line of sight comes through
+/// the plane.
 Eigen::Vector3d kept_eye(const std::optional<HalfSpace>& half, const Eigen::Vector3d& eye,
                          const Eigen::Vector3d& place);
 

@@ -4,11 +4,13 @@
 
 #include "app/viewer/model/actions/actions.h"
 
-/// What can be dragged of the surface: its control points, each once though patches share it, and the points of its lattice.
+/// What can be dragged of the surface: its control points, each once though patches share it, and
+/// the points of its lattice.
 namespace spia::viewer {
 
-/// Where they are now, deformed, mm; by number. Empty: there is no surface, or no lattice. A control point is called by its number of
-/// shared_controls(), a lattice point by that of Lattice::index().
+/// Where they are now, deformed, mm; by number. Empty: there is no surface, or no lattice. A
+/// control point is called by its number of shared_controls(), a lattice point by that of
+/// Lattice::index().
 Eigen::Matrix3Xd handle_positions(const Session& session, HandleKind kind);
 
 /// The one nearest to a pixel of a view; of those at one place that in front.

@@ -98,7 +98,8 @@ Measured between_faces(const TriMesh& part, const Probe& first, const Probe& sec
 Measured circle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 {
     const Vector3d to_b = b - a, to_c = c - a, across = to_b.cross(to_c);
-    constexpr double straight = 1e-6; // radians; on a flat sheet places read from a file are no nearer to a line
+    constexpr double straight = 1e-6; // radians; on a flat sheet places read from a file are no
+                                      // nearer to a line
     if (!(across.norm() > straight * to_b.norm() * to_c.norm()))
         throw InputError("These three places lie on a straight line: no circle goes through them.");
     // The circumcentre of a triangle.
@@ -139,14 +140,17 @@ double region_size(const TriMesh& part, const FaceSet& faces)
     return box.diagonal().norm();
 }
 
-/// Where the sheet bends but is no cylinder: its radius across the bend at the place that was clicked.
+/// Where the sheet bends but is no cylinder: its radius across the bend at the place that was
+/// clicked.
 Measured freeform_bend(const TriMesh& part, const Probe& probe, const FaceSet& region, const char* instead)
 {
     const CurvatureAt here = curvature_at(part, probe.face, place(part, probe), region);
     const double most = std::abs(here.curvature[0]), least = std::abs(here.curvature[1]);
-    // What the sheet rises over the patch has to stand out from how far the patch is from the fitted face.
+    // What the sheet rises over the patch has to stand out from how far the patch is from the
+    // fitted face.
     const double rise = 0.5 * most * here.reach_mm * here.reach_mm;
-    constexpr double flat = 1e-4; // of the patch's reach: what is read from single precision is no flatter
+    constexpr double flat = 1e-4; // of the patch's reach: what is read from single precision is no
+                                  // flatter
     if (rise < std::max(2 * here.distance_mm, flat * here.reach_mm))
         throw InputError(fmt::format("The sheet is flat here: within {:.3g} mm over a circle of {:.3g} mm. It has no "
                                      "radius; click where it bends.",
@@ -154,7 +158,8 @@ Measured freeform_bend(const TriMesh& part, const Probe& probe, const FaceSet& r
     Measured found;
     found.value = 1 / most;
     found.residual = here.distance_mm;
-    constexpr double straight = 100; // times the radius: along the bend nobody sees that it is curved
+    constexpr double straight = 100; // times the radius: along the bend nobody sees that it is
+                                     // curved
     found.more = {
         {"Measured", {}, fmt::format("curvature here ({})", instead)},
         {"Radius along the bend", least * straight > most ? std::vector{1 / least} : std::vector<double>{}, "straight"},
@@ -174,7 +179,8 @@ Measured rounding(const TriMesh& part, const Probe& probe, const RegionSearch& r
 {
     const FaceSet faces = regions.smooth_region(probe.face);
     std::optional<TargetFit> fit;
-    // From what a CAD system means by round to what still is round for a press shop; shares of the region's size.
+    // From what a CAD system means by round to what still is round for a press shop; shares of the
+    // region's size.
     constexpr double tolerances[] = {1e-4, 1e-3, 5e-3, 1e-2};
     for (const double tolerance : tolerances)
         if (!fit)
@@ -297,7 +303,8 @@ std::string text_of(const Measured::Figure& figure, LengthUnit unit)
 static void measure_again(Document& document, bool part_is_other, bool blank_is_other, bool quads_are_others,
                           bool surface_is_other)
 {
-    const bool others[] = {part_is_other, blank_is_other, quads_are_others, surface_is_other}; // by View
+    // by View
+    const bool others[] = {part_is_other, blank_is_other, quads_are_others, surface_is_other};
     const Session& session = document.session;
     for (Measurement& each : std::exchange(document.measurements, {}))
         try {

@@ -13,17 +13,17 @@
 
 namespace spia::viewer {
 
-/// What is measured on: the part, its blank, the quad mesh or the surface, as triangles. Null where there is none.
-/// Faces of part and blank are those of the part.
+/// What is measured on: the part, its blank, the quad mesh or the surface, as triangles. Null where
+/// there is none. Faces of part and blank are those of the part.
 std::shared_ptr<const TriMesh> measured_mesh(const ViewerState& state, View on);
 /// Whether its faces stay the same when it is computed again.
 inline bool keeps_faces(View on) { return on == View::part || on == View::blank; }
 
 /// What a measurement has found.
 struct Measured {
-    double value = 0; ///< mm, or degrees
-    std::optional<double>
-        residual; ///< mm, greatest distance of the sheet from the cylinder or the curved face through it
+    double value = 0;               ///< mm, or degrees
+    std::optional<double> residual; ///< mm, greatest distance of the sheet from the cylinder or the
+                                    ///< curved face through it
     struct Figure {
         std::string name;
         std::vector<double> mm; ///< lengths; empty: the words are all
@@ -43,8 +43,9 @@ Measured measured(const TriMesh& part, const Measurement& measurement, const Reg
 std::string text_of(const Measurement& measurement, LengthUnit unit);
 std::string text_of(const Measured::Figure& figure, LengthUnit unit);
 
-/// Measures all of a document anew on its part and blank, which have other coordinates now; what is not possible any more goes, and
-/// what was measured on a quad mesh or a surface, whose faces are others then.
+/// Measures all of a document anew on its part and blank, which have other coordinates now; what is
+/// not possible any more goes, and what was measured on a quad mesh or a surface, whose faces are
+/// others then.
 void measure_again(Document& document);
 /// Likewise after a run, only what is of results that are others than before.
 void measure_again(Document& document, const Session& before);

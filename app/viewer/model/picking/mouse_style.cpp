@@ -24,28 +24,33 @@ constexpr Binding of_spia[] = {{left, no_key, Navigation::turn},
                                {right, no_key, Navigation::turn},
                                {middle, no_key, Navigation::pan},
                                {right, shift, Navigation::pan}};
-// NX: middle turns; Shift or the right button with it pans, Ctrl or the left button with it zooms. As listed in
-// https://github.com/KittyCAD/modeling-app/pull/411 and in the navigation style of FreeCAD that is called after NX
-// (https://wiki.freecad.org/Mouse_navigation, where Shift or the right button pans and the left one zooms). Neither tells the sense of
-// the wheel: it is the program's own.
+// NX: middle turns; Shift or the right button with it pans, Ctrl or the left button with it zooms.
+// As listed in https://github.com/KittyCAD/modeling-app/pull/411 and in the navigation style of
+// FreeCAD that is called after NX (https://wiki.freecad.org/Mouse_navigation, where Shift or the
+// right button pans and the left one zooms). Neither tells the sense of the wheel: it is the
+// program's own.
 constexpr Binding of_nx[] = {{middle, no_key, Navigation::turn},
                              {middle | right, no_key, Navigation::pan},
                              {middle, shift, Navigation::pan},
                              {middle | left, no_key, Navigation::zoom},
                              {middle, ctrl, Navigation::zoom}};
-// SolidWorks: middle turns, with Ctrl it pans, with Shift it zooms (FreeCAD's style of that name, same page); the sense of the wheel is that of
-// IMouse::MouseWheelXYZ, https://help.solidworks.com/2024/english/api/sldworksapi (120, which is forward, zooms out).
+// SolidWorks: middle turns, with Ctrl it pans, with Shift it zooms (FreeCAD's style of that name,
+// same page); the sense of the wheel is that of IMouse::MouseWheelXYZ,
+// https://help.solidworks.com/2024/english/api/sldworksapi (120, which is forward, zooms out).
 constexpr Binding of_solidworks[] = {
     {middle, no_key, Navigation::turn}, {middle, ctrl, Navigation::pan}, {middle, shift, Navigation::zoom}};
-// Inspire: middle turns, right pans, the wheel zooms. No public text that says so was found (neither help pages nor source of others):
-// it is from hearsay, and so is the sense of the wheel, the program's own.
+// Inspire: middle turns, right pans, the wheel zooms. No public text that says so was found
+// (neither help pages nor source of others): it is from hearsay, and so is the sense of the wheel,
+// the program's own.
 constexpr Binding of_inspire[] = {{middle, no_key, Navigation::turn}, {right, no_key, Navigation::pan}};
-// Blender: middle turns, with Shift it pans, with Ctrl it zooms: view3d.rotate, view3d.move and view3d.zoom of its default key map
-// (https://docs.blender.org/manual/en/latest/editors/3dview/navigate/navigation.html). The wheel enlarges forward
-// (https://github.com/x3dom/x3dom/issues/454 lists it among those that do).
+// Blender: middle turns, with Shift it pans, with Ctrl it zooms: view3d.rotate, view3d.move and
+// view3d.zoom of its default key map
+// (https://docs.blender.org/manual/en/latest/editors/3dview/navigate/navigation.html). The wheel
+// enlarges forward (https://github.com/x3dom/x3dom/issues/454 lists it among those that do).
 constexpr Binding of_blender[] = {
     {middle, no_key, Navigation::turn}, {middle, shift, Navigation::pan}, {middle, ctrl, Navigation::zoom}};
-// CATIA is no table: what the second button does depends on whether it is still down. Navigator::follow_catia().
+// CATIA is no table: what the second button does depends on whether it is still down.
+// Navigator::follow_catia().
 
 std::span<const Binding> bindings(MouseStyle style)
 {
@@ -189,10 +194,12 @@ Navigator::Step Navigator::follow(MouseStyle style, const MouseHeld& held, bool 
     return step;
 }
 
-// CATIA V5: middle pans; while it is down a second button turns as long as it is held, and after its release the drag zooms
-// (https://github.com/KittyCAD/modeling-app/issues/4456). 3DEXPERIENCE: Ctrl before middle zooms, Ctrl after it turns
-// (https://github.com/KittyCAD/modeling-app/issues/2134). A click of the middle button centres the view there. The wheel moves no part
-// there (same issue); here it zooms all the same, in the program's own sense.
+// CATIA V5: middle pans; while it is down a second button turns as long as it is held, and after
+// its release the drag zooms (https://github.com/KittyCAD/modeling-app/issues/4456). 3DEXPERIENCE:
+// Ctrl before middle zooms, Ctrl after it turns
+// (https://github.com/KittyCAD/modeling-app/issues/2134). A click of the middle button centres the
+// view there. The wheel moves no part there (same issue); here it zooms all the same, in the
+// program's own sense.
 void Navigator::follow_catia(const MouseHeld& held)
 {
     const bool side = held.left || held.right;

@@ -36,8 +36,9 @@ std::vector<MouseHabit> habits(MouseStyle style);
 /// Whether the wheel, rolled away from the user, makes things larger.
 bool forward_enlarges(MouseStyle style);
 
-/// Turns what is pressed into what the camera does, from the press of the first button to the release of the last. The camera
-/// waits until the mouse has left the place of the press, so that a click moves nothing.
+/// Turns what is pressed into what the camera does, from the press of the first button to the
+/// release of the last. The camera waits until the mouse has left the place of the press, so that a
+/// click moves nothing.
 class Navigator {
 public:
     /// What one frame brings.
@@ -69,7 +70,8 @@ private:
     glm::dvec2 withheld_{0};  ///< pixels, while it may still become a click
 };
 
-/// Turned, panned or zoomed by a drag; zooming is about the middle of the view, larger by dragging up.
+/// Turned, panned or zoomed by a drag; zooming is about the middle of the view, larger by dragging
+/// up.
 Camera moved(const Camera& camera, const Navigator::Step& step, glm::dvec2 size);
 
 } // namespace spia::viewer

@@ -12,8 +12,9 @@
 
 namespace spia::viewer {
 
-/// Search structures of the part and its blank, made in the background as soon as these are there and kept as long as they
-/// are the same. A million triangles take seconds; what asks for one before waits, but the `ready_` ones never do.
+/// Search structures of the part and its blank, made in the background as soon as these are there
+/// and kept as long as they are the same. A million triangles take seconds; what asks for one
+/// before waits, but the `ready_` ones never do.
 class Pickers {
 public:
     /// @param wake  called on another thread when one is ready
@@ -23,10 +24,12 @@ public:
     void follow(const Session& session);
     /// The view of the part shows it as unfolded by its steps: what is picked there is that.
     void follow_steps(const ViewerState& state);
-    /// Whether the view of the part shows it on the way from one state to the next: nothing can be picked there.
+    /// Whether the view of the part shows it on the way from one state to the next: nothing can be
+    /// picked there.
     bool on_the_way() const { return on_the_way_; }
 
-    /// That of a view: the blank's, or the part's for the others. Null if there is nothing to pick yet.
+    /// That of a view: the blank's, or the part's for the others. Null if there is nothing to pick
+    /// yet.
     const RayPicker* picker(const Session& session, View view);
     /// Null also while it is being made.
     const RayPicker* ready_picker(const Session& session, View view);
@@ -39,7 +42,8 @@ public:
     const CornerTrack& track(const Session& session);    ///< the blank must be there
     /// The part must be there.
     const BoundaryVertices& boundary(const Session& session, View view);
-    /// Vertices of the outer boundary in their order; before there is a blank the longest one counts as that.
+    /// Vertices of the outer boundary in their order; before there is a blank the longest one
+    /// counts as that.
     /// @throws InputError if there is none
     const std::vector<int>& outline(const Session& session);
     /// Null while it is being made. @throws likewise

@@ -14,10 +14,12 @@
 namespace spia::viewer {
 namespace {
 
-constexpr double edge_on = 1e-4; ///< radians between a face and the line of sight: no pixel shows it
+constexpr double edge_on = 1e-4; ///< radians between a face and the line of sight: no pixel shows
+                                 ///< it
 constexpr double sharp_turn = 20 * std::numbers::pi / 180;
 
-/// A closed polygon of pixels, with its edges sorted into horizontal bands: a lasso has hundreds of them.
+/// A closed polygon of pixels, with its edges sorted into horizontal bands: a lasso has hundreds of
+/// them.
 class PixelPolygon {
 public:
     explicit PixelPolygon(const std::vector<glm::dvec2>& corner) : band_(corner.size() + 1)
@@ -61,7 +63,8 @@ private:
     std::vector<std::vector<Edge>> band_;
 };
 
-/// Faces whose middle is seen (or, through others, would be) at a pixel for which inside(pixel) holds.
+/// Faces whose middle is seen (or, through others, would be) at a pixel for which inside(pixel)
+/// holds.
 /// @param box of pixels, outside of which there is none
 template <class Inside>
 FaceSet faces_seen(const Camera& camera, const TriMesh& mesh, const RayPicker& picker, glm::dvec2 size, PixelBox box,
@@ -190,7 +193,8 @@ std::vector<int> sharp_turns(const std::vector<double>& turn, const Eigen::Matri
                 if (way > apart)
                     break;
                 const double other = turn[size_t(k)];
-                greatest = turn[size_t(i)] > other || (turn[size_t(i)] == other && i < k); // of equal ones the first
+                // of equal ones the first
+                greatest = turn[size_t(i)] > other || (turn[size_t(i)] == other && i < k);
             }
         }
         if (greatest)

@@ -81,7 +81,8 @@ std::vector<std::vector<SectionPiece>> joined(const std::vector<LoosePiece>& loo
             if (loose[size_t(k)].end[size_t(e)] != no_edge)
                 on_edge[loose[size_t(k)].end[size_t(e)]].push_back({k, e});
     std::vector<char> used(loose.size());
-    const auto beyond = [&](int k, int e) -> std::optional<std::pair<int, int>> { // the other piece at this end
+    // the other piece at this end
+    const auto beyond = [&](int k, int e) -> std::optional<std::pair<int, int>> {
         const Edge edge = loose[size_t(k)].end[size_t(e)];
         if (edge == no_edge)
             return std::nullopt;

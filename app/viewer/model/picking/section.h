@@ -18,14 +18,16 @@ struct SectionPiece {
     int curve = 0;                             ///< pieces with the same number hang together
 };
 
-/// Where the plane through a drawn line cuts the faces, as far as the line goes: one curve after another, each along itself.
-/// The first curve begins at arc length 0; over a hole the arc goes straight on; a curve above or below another one
-/// begins where that one has come as far along the line.
+/// Where the plane through a drawn line cuts the faces, as far as the line goes: one curve after
+/// another, each along itself. The first curve begins at arc length 0; over a hole the arc goes
+/// straight on; a curve above or below another one begins where that one has come as far along the
+/// line.
 /// @param mesh  the part, or its flat blank if the line was drawn there
 /// @param value one per vertex
 std::vector<SectionPiece> section(const TriMesh& mesh, const Eigen::VectorXd& value, const SectionLine& line);
 
-/// The same cut on another shape of the same sheet: from the part to its blank, or back. Arc lengths stay those of the cut.
+/// The same cut on another shape of the same sheet: from the part to its blank, or back. Arc
+/// lengths stay those of the cut.
 std::vector<SectionPiece> carried(std::vector<SectionPiece> pieces, const TriMesh& from, const TriMesh& to);
 
 /// A place on a cut.

@@ -29,7 +29,8 @@ public:
     const Eigen::Matrix3Xd& place() const { return place_; }
     double perimeter() const { return start_.back(); }
 
-    /// By how much it turns at place i, 0 to pi: between the chords of this length of it to either side.
+    /// By how much it turns at place i, 0 to pi: between the chords of this length of it to either
+    /// side.
     double turning(int i, double reach) const
     {
         const Eigen::Vector3d here = place_.col(i), before = here - at(start_[size_t(i)] - reach),

@@ -9,21 +9,24 @@
 #include "engine/mesh/pick.h"
 #include "engine/mesh/tri_mesh.h"
 
-/// Which vertex a view shows at a pixel, and what can be done with picked ones. Mesh, picker and camera as in picking.h.
+/// Which vertex a view shows at a pixel, and what can be done with picked ones. Mesh, picker and
+/// camera as in picking.h.
 namespace spia::viewer {
 
 /// The boundary of a mesh, its outline and its holes.
 struct BoundaryVertices {
     std::vector<int> vertex; ///< ascending
     std::vector<int> face;   ///< per vertex one of its faces
-    std::vector<char> sharp; ///< per vertex 1 where the boundary turns sharply, to either side or out of its plane
+    std::vector<char> sharp; ///< per vertex 1 where the boundary turns sharply, to either side or
+                             ///< out of its plane
 };
 
-/// Where edges with three faces leave no closed loops nothing counts as sharp; reading such a part has told about it.
+/// Where edges with three faces leave no closed loops nothing counts as sharp; reading such a part
+/// has told about it.
 BoundaryVertices boundary_vertices(const TriMesh& mesh);
 
-/// The vertex in sight that is nearest to the pixel, at most pick.reach from it. Where several stand behind each other
-/// it is the one in front.
+/// The vertex in sight that is nearest to the pixel, at most pick.reach from it. Where several
+/// stand behind each other it is the one in front.
 std::optional<int> vertex_at(const PickVertex& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker,
                              const std::optional<HalfSpace>& kept = {});
 

@@ -33,7 +33,8 @@ glm::dvec2 in_picture(const glm::dquat& turn, const glm::dvec3& place)
 
 std::optional<CubeSide> cube_side_at(const glm::dquat& turn, glm::dvec2 place)
 {
-    // The line of sight comes from far in front; it enters the cube through the last of the three faces towards the viewer.
+    // The line of sight comes from far in front; it enters the cube through the last of the three
+    // faces towards the viewer.
     const glm::dvec3 origin = turn * glm::dvec3(place, 0), back = turn * glm::dvec3(0, 0, 1);
     double enters = std::numeric_limits<double>::infinity(), leaves = -enters; // along `back`
     for (int k = 0; k < 3; ++k) {

@@ -12,7 +12,8 @@
 namespace spia::viewer {
 namespace {
 
-/// What the views in space have to show: the part and, where it is shown unfolded, the boxes around all of its states.
+/// What the views in space have to show: the part and, where it is shown unfolded, the boxes around
+/// all of its states.
 Eigen::Matrix3Xd places_in_space(const ViewerState& state, const PartFile& part)
 {
     Eigen::Matrix3Xd place = part.mesh.position;
@@ -42,7 +43,8 @@ bool clear_of_corner(const Camera& camera, const Eigen::Matrix3Xd& place, glm::d
     if (!(side > 0))
         return true;
     constexpr int ways = 16;
-    std::array<double, ways + 1> reach; // how far the points go towards the corner, seen from where the square begins
+    std::array<double, ways + 1> reach; // how far the points go towards the corner, seen from where
+                                        // the square begins
     reach.fill(-std::numeric_limits<double>::infinity());
     const glm::dvec2 inner(size.x - side, side);
     for (Eigen::Index i = 0; i < place.cols(); ++i) {
@@ -55,7 +57,8 @@ bool clear_of_corner(const Camera& camera, const Eigen::Matrix3Xd& place, glm::d
     return std::any_of(reach.begin(), reach.end(), [](double r) { return r < 0; });
 }
 
-/// Of very many points those at the outline of the picture, to a small part of a pixel of what they fill.
+/// Of very many points those at the outline of the picture, to a small part of a pixel of what they
+/// fill.
 Eigen::Matrix3Xd outermost(const Camera& camera, const Eigen::Matrix3Xd& place)
 {
     constexpr Eigen::Index many = 50000;
@@ -100,7 +103,8 @@ Camera ViewFitter::beside(const ViewerState& state, View view, const Camera& cam
     below.top = std::max(free.top, cube);
     const Camera a = viewer::fit(camera, place, size, left_of), b = viewer::fit(camera, place, size, below);
     Camera best = a.height <= b.height ? a : b;
-    // Past the corner, where the part may be larger than beside the whole square: halfway to either margin and so on.
+    // Past the corner, where the part may be larger than beside the whole square: halfway to either
+    // margin and so on.
     for (const auto& [across, down] : {std::pair(0.5, 0.5), {0.3, 0.6}, {0.6, 0.3}, {0.3, 0.3}, {0., 0.5}, {0.5, 0.}}) {
         Margins some = free;
         some.right = std::max(free.right, across * cube);
@@ -115,7 +119,8 @@ Camera ViewFitter::beside(const ViewerState& state, View view, const Camera& cam
 void ViewFitter::fit(ViewerState& state, std::optional<View> only)
 {
     const Session& session = state.document.session;
-    if (shows_refused(state) && only.value_or(View::part) == View::part) { // the others show the part that is open
+    // the others show the part that is open
+    if (shows_refused(state) && only.value_or(View::part) == View::part) {
         Camera& camera = state.view.camera[size_t(View::part)];
         camera = beside(state, View::part, camera, state.refused->mesh.position);
         fitted_[size_t(View::part)] = camera;
@@ -159,7 +164,8 @@ void ViewFitter::fit_space(ViewerState& state, const PartFile& part, std::option
                 set(view, fitted(view, state.view.camera[size_t(view)]));
         return;
     }
-    // What fits in the view that has the least room fits in the others. Views behind a maximised one do not count.
+    // What fits in the view that has the least room fits in the others. Views behind a maximised
+    // one do not count.
     const Camera& leader = state.view.camera[size_t(only.value_or(View::part))];
     const std::optional<View> alone = state.view.maximised;
     std::optional<Camera> widest;
@@ -184,13 +190,15 @@ void ViewFitter::resized(ViewerState& state, View view, glm::dvec2 size, double 
         fit(state, view);
 }
 
-/// Pixels at content scale 1 that stay free on the left of a view, where its legend is if there is one.
+/// Pixels at content scale 1 that stay free on the left of a view, where its legend is if there is
+/// one.
 static double room_for_legend(const ViewerState& state, View view, double around, double drawn_legend)
 {
     const Document& document = state.document;
     const bool of_sheet = view == View::part || view == View::blank;
-    const double legend = of_sheet && document.display.field == Field::zone ? 122 // names instead of numbers
-                          : view == View::quads                             ? 92  // its title is long
+    // names instead of numbers
+    const double legend = of_sheet && document.display.field == Field::zone ? 122
+                          : view == View::quads                             ? 92 // its title is long
                                                                             : 72;
     const bool stepwise = view == View::part && (step_shown(state) || step_position(state) > 0);
     const bool coloured = view == View::part && shows_refused(state) ? false
@@ -200,12 +208,14 @@ static double room_for_legend(const ViewerState& state, View view, double around
                                      : document.display.field != Field::none;
     if (!coloured)
         return around;
-    // As it was drawn last; it is estimated before that. Its numbers change with the field: in steps, or the part would tremble.
+    // As it was drawn last; it is estimated before that. Its numbers change with the field: in
+    // steps, or the part would tremble.
     constexpr double gap = 10, step = 8; // pixels
     return std::max(around + legend, drawn_legend > 0 ? step * std::ceil((drawn_legend + gap) / step) : 0);
 }
 
-/// Beside what is shown there is room for the legend if there is one; views with one camera have the same room.
+/// Beside what is shown there is room for the legend if there is one; views with one camera have
+/// the same room.
 Margins ViewFitter::margins(const ViewerState& state, View view) const
 {
     constexpr double around = 24; // pixels

@@ -9,13 +9,15 @@ namespace spia::viewer {
 /// What lies over the picture of a view, pixels.
 struct Covered {
     double legend = 0; ///< from the left edge to its right end; 0: there is none
-    double cube = 0;   ///< side of the square in the upper right corner that the view cube takes; 0: there is none
+    double cube = 0;   ///< side of the square in the upper right corner that the view cube takes;
+                       ///< 0: there is none
 
     friend bool operator==(const Covered&, const Covered&) = default;
 };
 
-/// Knows how large each view is on the screen, and sets cameras so that all of what a view shows is seen, as large as it
-/// may be. The views that turn together get one camera, which fits in each of them.
+/// Knows how large each view is on the screen, and sets cameras so that all of what a view shows is
+/// seen, as large as it may be. The views that turn together get one camera, which fits in each of
+/// them.
 class ViewFitter {
 public:
     ViewFitter() { size_.fill({800, 600}); }

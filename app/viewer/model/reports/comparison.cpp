@@ -56,7 +56,8 @@ double greatest_distance(const std::vector<std::vector<int>>& loops, const Eigen
             const Eigen::Vector2d p = from.col(v);
             double nearest = (to.col(v) - p).norm();
             for (const auto& other : loops)
-                for (size_t i = 0; i < other.size() && nearest > greatest; ++i) // less than the greatest adds nothing
+                // less than the greatest adds nothing
+                for (size_t i = 0; i < other.size() && nearest > greatest; ++i)
                     nearest = std::min(nearest,
                                        distance_to_piece(p, to.col(other[i]), to.col(other[(i + 1) % other.size()])));
             greatest = std::max(greatest, nearest);
@@ -162,7 +163,8 @@ ComparedFigure in_unit(ComparedFigure figure, LengthUnit lengths)
     for (auto* value : {&figure.reference, &figure.now})
         if (*value)
             **value *= as.factor;
-    figure.decimals += figure.unit == "mm" ? more_decimals(lengths) : more_decimals(lengths) + 1; // of areas
+    // of areas
+    figure.decimals += figure.unit == "mm" ? more_decimals(lengths) : more_decimals(lengths) + 1;
     figure.unit = as.unit;
     return figure;
 }

@@ -6,7 +6,8 @@
 
 #include "app/viewer/model/document/state.h"
 
-/// Two runs side by side: a result that was kept as reference, and the one that there is now. Differences are now minus reference.
+/// Two runs side by side: a result that was kept as reference, and the one that there is now.
+/// Differences are now minus reference.
 namespace spia::viewer {
 
 /// A result that was kept.
@@ -29,17 +30,20 @@ struct Differences {
 
     /// Why there are no differences face by face, a sentence; empty: there are.
     std::string none_because;
-    std::shared_ptr<const FlattenResult>
-        fields;                  ///< the present blank, its fields less those of the reference; null: none_because
-    Eigen::Matrix2Xd outline;    ///< 2 by #V, mm: the blank of the reference, turned and moved onto the present one
-    double outline_distance = 0; ///< mm, the greatest one from any point of either outline to the other one
+    std::shared_ptr<const FlattenResult> fields; ///< the present blank, its fields less those of
+                                                 ///< the reference; null: none_because
+    Eigen::Matrix2Xd outline;                    ///< 2 by #V, mm: the blank of the reference,
+                                                 ///< turned and moved onto the present one
+    double outline_distance = 0;                 ///< mm, the greatest one from any point of either
+                                                 ///< outline to the other one
 };
 /// All but the fields needs the same triangles; where they differ `none_because` says so.
 Differences differences_of(const std::shared_ptr<const Reference>& reference, const Session& now);
 
 /// Whether a difference of the field can be told of the fields of two blanks.
 bool has_difference(Field field);
-/// The result whose values the views and charts show: the differences where they are asked for, else the blank itself.
+/// The result whose values the views and charts show: the differences where they are asked for,
+/// else the blank itself.
 const std::shared_ptr<const FlattenResult>& blank_of_field(const ViewerState& state);
 /// The session with that result in place of its blank, for values().
 Session session_of_field(const ViewerState& state);
@@ -56,7 +60,8 @@ struct ComparedFigure {
 ComparedFigure in_unit(ComparedFigure figure, LengthUnit lengths);
 std::vector<ComparedFigure> compared_figures(const Reference& reference, const Session& now);
 
-/// The least turn and shift that lays points onto others of the same number, by least squares. 2 by n, mm
+/// The least turn and shift that lays points onto others of the same number, by least squares. 2 by
+/// n, mm
 Eigen::Matrix2Xd laid_over(const Eigen::Matrix2Xd& points, const Eigen::Matrix2Xd& onto);
 
 } // namespace spia::viewer

@@ -69,7 +69,8 @@ ExportVerdict export_verdict(const ViewerState& state, const FitVerdict& fit)
     verdict.headline = verdict.doubts == 0   ? surface
                        : verdict.doubts == 1 ? fmt::format("{}; 1 thing to look at", surface)
                                              : fmt::format("{}; {} things to look at", surface, verdict.doubts);
-    if (verdict.doubts == 0 && !ready.fine && out_of_date(state.document).empty()) { // the steps of the unfolding
+    // the steps of the unfolding
+    if (verdict.doubts == 0 && !ready.fine && out_of_date(state.document).empty()) {
         verdict.kind = std::max(verdict.kind, ExportVerdict::Kind::warning);
         verdict.text += " " + ready.text + ".";
     }

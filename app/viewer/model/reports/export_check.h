@@ -11,9 +11,10 @@ enum class Fit {
     far_off, ///< more than ten times farther somewhere: a mistake rather than a compromise
 };
 
-/// The one measure of how well the surface fits: step, lights, Export and reports all tell it. Shares are of the area, by samples of
-/// the surface against the part and of vertices, edges and faces of the part against the surface, each with the area that it
-/// stands for; the worse of both ways counts (Deviation::within()).
+/// The one measure of how well the surface fits: step, lights, Export and reports all tell it.
+/// Shares are of the area, by samples of the surface against the part and of vertices, edges and
+/// faces of the part against the surface, each with the area that it stands for; the worse of both
+/// ways counts (Deviation::within()).
 struct FitVerdict {
     Fit fit = Fit::none;
     double tolerance = 0; ///< mm, as it was fitted within; else the usual one
@@ -24,7 +25,8 @@ struct FitVerdict {
 
 FitVerdict fit_verdict(const Session& session);
 
-/// A share of the area, with one precision everywhere: "0.58 %", "less than 0.01 %", "more than 99.99 %".
+/// A share of the area, with one precision everywhere: "0.58 %", "less than 0.01 %", "more than
+/// 99.99 %".
 std::string area_share(double share);
 
 /// In words, for the user: the measure alone, what to do about it is said by the lights.
@@ -33,7 +35,8 @@ std::string text(const FitVerdict& verdict, LengthUnit lengths = LengthUnit::mm)
 
 struct ViewerState;
 
-/// What Export says first: how the surface fits, and whether the lights hold anything against the result.
+/// What Export says first: how the surface fits, and whether the lights hold anything against the
+/// result.
 struct ExportVerdict {
     enum class Kind { good, warning, bad } kind = Kind::good;
     std::string headline, text;

@@ -93,7 +93,8 @@ void add_shortcomings(ChainStep step, const Session& upto, const Document& docum
         }
 }
 
-/// A part that is hardly larger than its sheet is thick, or of no size that sheet parts have: its unit is likely another.
+/// A part that is hardly larger than its sheet is thick, or of no size that sheet parts have: its
+/// unit is likely another.
 void judge_size(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
 {
     const PartFile& part = *document.session.part;
@@ -214,11 +215,13 @@ void judge_distance(const Document& document, LengthUnit lengths, std::vector<Do
          Remedy::fit_within_tolerance});
 }
 
-/// A surface with more control points than the part has vertices is bent along the facets of the mesh, which no sheet is.
+/// A surface with more control points than the part has vertices is bent along the facets of the
+/// mesh, which no sheet is.
 void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
 {
     const SurfaceStage& surface = *document.session.surface;
-    if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's choice
+    if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's
+                                          // choice
         return;
     const int count = surface_figures(surface).control_points, vertices = document.session.part->mesh.vertices();
     if (count > vertices)
@@ -267,7 +270,8 @@ void judge_folds(const Document& document, std::vector<Doubt>& doubts)
     const auto folded = folded_surface(document.session);
     if (!folded)
         return;
-    const std::string text = sentence(folded->substr(0, folded->rfind(';'))); // the way out is a click here
+    // the way out is a click here
+    const std::string text = sentence(folded->substr(0, folded->rfind(';')));
     if (document.session.options.patches) {
         doubts.push_back({ChainStep::surface, text, "Add a cut there with the tool Vertex, or choose \"one patch\"."});
         return;
@@ -378,7 +382,8 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
     if (made.surface && holds(Stage::fit)) {
         upto.surface = made.surface;
         upto.deformed = made.deformed;
-        for (const auto& text : {far_surface(upto), folded_surface(upto)}) // said below, with a click
+        // said below, with a click
+        for (const auto& text : {far_surface(upto), folded_surface(upto)})
             if (text)
                 known.push_back(*text);
         add_shortcomings(ChainStep::surface, upto, document, known, doubts);

@@ -35,7 +35,8 @@ enum class Remedy {
 struct Doubt {
     ChainStep step;
     std::string text;        ///< a sentence
-    std::string next = {};   ///< what to do about it, a sentence; empty: the text says it, or the button
+    std::string next = {};   ///< what to do about it, a sentence; empty: the text says it, or the
+                             ///< button
     std::string button = {}; ///< what the remedy is called; empty: there is none
     Remedy remedy = Remedy::none;
 };
@@ -53,9 +54,9 @@ struct DoubtsOf {
 };
 DoubtsOf doubts_of(const Document& document, LengthUnit lengths);
 
-/// Of the results that there are, in the order of the steps. Those of a stage that is out of date are left out: its light says so.
-/// The engine's shortcomings() are all among them; besides, what only judges: an assumed sheet, a surface out of tolerance or with a fold,
-/// a sheet that cracks.
+/// Of the results that there are, in the order of the steps. Those of a stage that is out of date
+/// are left out: its light says so. The engine's shortcomings() are all among them; besides, what
+/// only judges: an assumed sheet, a surface out of tolerance or with a fold, a sheet that cracks.
 /// @param lengths  in which they are told; the engine tells its own in mm
 std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths = LengthUnit::mm);
 
@@ -65,8 +66,9 @@ double wanted_tolerance(const SessionOptions& options);
 double reached_tolerance(const SurfaceStage& surface);
 /// How many the next try may have.
 int more_control_points(int most);
-/// A sheet is at least so many times as large as it is thick: the bound of thin plate theory [Timoshenko and Woinowsky-Krieger 1959],
-/// below it a body is no sheet whose thickness could be left out of its shape. It is the same in every unit.
+/// A sheet is at least so many times as large as it is thick: the bound of thin plate theory
+/// [Timoshenko and Woinowsky-Krieger 1959], below it a body is no sheet whose thickness could be
+/// left out of its shape. It is the same in every unit.
 inline constexpr double least_size_in_thicknesses = 10;
 
 /// Cells of the next finer grid, see Remedy::finer_grid.
@@ -75,7 +77,8 @@ int finer_cells(const GridOptions& grid);
 /// Of a cell that isogeometric analysis can still live with; below it the map is nearly singular.
 inline constexpr double least_scaled_jacobian = 0.1;
 
-/// The unit that would make a sheet part of it; nothing if its size is a likely one already, also beside its thickness (mm).
+/// The unit that would make a sheet part of it; nothing if its size is a likely one already, also
+/// beside its thickness (mm).
 std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal, double thickness);
 
 /// What the light at the foot of the window says.

@@ -37,7 +37,8 @@ public:
         case MD_BLOCK_P:
             if (!std::exchange(fresh_item_, false)) {
                 ManualBlock& block = begin(ManualBlock::Kind::paragraph);
-                block.level = int(lists_.size()); // further paragraphs of an item stand as far in as it
+                block.level = int(lists_.size()); // further paragraphs of an item stand as far in
+                                                  // as it
             }
             break;
         case MD_BLOCK_UL: lists_.push_back(bullets); break;

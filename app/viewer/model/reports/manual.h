@@ -45,7 +45,8 @@ struct Manual {
 /// One chapter. Pictures are looked for in `folder`. @throws InputError if it has no heading
 ManualChapter manual_chapter(std::string_view markdown, const std::string& file, const std::filesystem::path& folder);
 
-/// The chapters of a folder that its contents.txt names, a file a line, in this order. @throws InputError
+/// The chapters of a folder that its contents.txt names, a file a line, in this order. @throws
+/// InputError
 Manual read_manual(const std::filesystem::path& folder);
 
 /// Where words stand in the manual.
@@ -56,7 +57,8 @@ struct ManualPlace {
 
     friend bool operator==(const ManualPlace&, const ManualPlace&) = default;
 };
-/// Blocks that hold all of the words, in upper or lower case; those whose heading does go first. None for words shorter than two letters.
+/// Blocks that hold all of the words, in upper or lower case; those whose heading does go first.
+/// None for words shorter than two letters.
 std::vector<ManualPlace> places_of(const Manual& manual, std::string_view words);
 
 } // namespace spia::viewer

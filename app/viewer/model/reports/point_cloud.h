@@ -6,7 +6,8 @@
 
 namespace spia::viewer {
 
-/// Points of a plane, counted in the squares of a grid: how a diagram shows more points than it has room for.
+/// Points of a plane, counted in the squares of a grid: how a diagram shows more points than it has
+/// room for.
 struct PointCloud {
     struct Square {
         int column, row;    ///< from the least x and y on

@@ -4,7 +4,8 @@
 
 namespace spia::viewer {
 
-/// The state of the program as tests and --report see it (schema "spia-state/1"; expectations of scripts point into it):
+/// The state of the program as tests and --report see it (schema "spia-state/1"; expectations of
+/// scripts point into it):
 ///
 /// | member | what |
 /// |---|---|
@@ -34,7 +35,8 @@ namespace spia::viewer {
 /// | `frames`, `frames_while_solving` | of the window only: how many, and `p50_ms`, `p99_ms`, `max_ms` it was busy with one |
 /// | `window` | of the window only, pixels: `size`, `views.{part,...}.{at,size}` of the pictures shown, `mouse` (null: outside), `buttons` held |
 ///
-/// Faces and vertices are numbers of the part in the program, from 0. Members are only added within a version.
+/// Faces and vertices are numbers of the part in the program, from 0. Members are only added within
+/// a version.
 Json state_report(const ViewerState& state);
 
 } // namespace spia::viewer

@@ -8,7 +8,8 @@
 namespace spia::viewer {
 namespace {
 
-/// Fortran's ways to leave out the letter of an exponent, or to write a d, are no way to type: "1-3" may be meant as 1 to 3.
+/// Fortran's ways to leave out the letter of an exponent, or to write a d, are no way to type:
+/// "1-3" may be meant as 1 to 3.
 bool as_people_write(std::string_view text)
 {
     for (size_t k = 0; k < text.size(); ++k) {
