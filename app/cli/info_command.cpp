@@ -5,6 +5,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
+#include "engine/core/text.h"
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "engine/core/text.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
@@ -71,7 +72,7 @@ void print_summary(const Session& session)
     else
         say("blank     {:.6g} x {:.6g} mm{}, {} energy and {}, {}\n", size[0], size[1],
             session.options.steps ? " of the steps, polished" : "", flat.report.energy.size(),
-            counted(int(flat.report.newton.size()), "Newton step", "Newton steps"),
+            counted(flat.report.newton.size(), "Newton step", "Newton steps"),
             flat.report.whole()     ? "converged"
             : flat.report.converged ? fmt::format("converged ({})", name(flat.report.system))
                                     : "NOT converged");
@@ -103,7 +104,7 @@ void print_summary(const Session& session)
         figures.surface->deviation_max, figures.surface->deviation_rms);
     if (const TrimResult& trim = session.surface->trim; !trim.loop.empty())
         say("holes     {}, of IGES and STEP files, within {:.2g} mm of {} vertices\n",
-            counted(int(trim.loop.size()), "trimming curve", "trimming curves"), trim.distance,
+            counted(trim.loop.size(), "trimming curve", "trimming curves"), trim.distance,
             trim.loop.size() == 1 ? "its" : "their");
     if (const auto& fit = session.surface->fit; fit && patches)
         say("          {} {:.4g} mm in {}, {}{}\n", fit->reached ? "within" : "NOT within", fit->tolerance,

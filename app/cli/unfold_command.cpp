@@ -15,6 +15,7 @@
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
@@ -78,8 +79,8 @@ PartFile part_of(const UnfoldArguments& arguments)
 
 void print_map(const BendMap& map)
 {
-    say("part      {}, {}{}\n", counted(int(map.regions.size()), "region", "regions"),
-        counted(int(map.bends.size()), "bend", "bends"), map.smoothed ? ", its noise smoothed for this" : "");
+    say("part      {}, {}{}\n", counted(map.regions.size(), "region", "regions"),
+        counted(map.bends.size(), "bend", "bends"), map.smoothed ? ", its noise smoothed for this" : "");
     constexpr size_t most = 12;
     for (size_t k = 0; k < std::min(most, map.bends.size()); ++k) {
         const Bend& bend = map.bends[k];
@@ -200,15 +201,14 @@ KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, c
     const size_t from = redone_from(arguments.redo);
     KeptStates kept = read_unfold_states(states_file(arguments), part.mesh, options, steps);
     if (from > steps.size())
-        throw InputError(
-            fmt::format("--redo {}: the script has {}", from, counted(int(steps.size()), "step", "steps")));
+        throw InputError(fmt::format("--redo {}: the script has {}", from, counted(steps.size(), "step", "steps")));
     if (from > kept.keep + 1)
         throw InputError(fmt::format(
             "--redo {}: only {}, for {}; give --redo auto", from,
-            counted(int(kept.keep), "state of the earlier run holds", "states of the earlier run hold"), kept.why));
+            counted(kept.keep, "state of the earlier run holds", "states of the earlier run hold"), kept.why));
     if (from > 0)
         kept.keep = from - 1;
-    say("kept      {} of an earlier run{}\n", counted(int(kept.keep), "state", "states"),
+    say("kept      {} of an earlier run{}\n", counted(kept.keep, "state", "states"),
         from == 0 && !kept.why.empty() ? "; " + kept.why : "");
     return kept;
 }
@@ -290,7 +290,7 @@ std::string describe_kept(const UnfoldArguments& arguments, const UnfoldRun& run
                                  const FlattenOptions& options, const UnfoldScript& steps, const UnfoldRun& run)
 {
     std::string what =
-        fmt::format("cancelled after {} of {}", run.states.size(), counted(int(steps.size()), "step", "steps"));
+        fmt::format("cancelled after {} of {}", run.states.size(), counted(steps.size(), "step", "steps"));
     if (!states_are_written(arguments, run))
         throw Cancelled(what);
     if (!holds_as_much(arguments, part, options, steps, run))

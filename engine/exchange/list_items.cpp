@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file_content.h"
+#include "engine/core/text.h"
 #include "engine/exchange/cad/read_cad.h"
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/deck/read_deck.h"

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/edge_uses.h"

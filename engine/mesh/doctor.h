@@ -57,9 +57,6 @@ struct Tally {
     }
 };
 
-/// "1 face has", "3 faces have"
-std::string counted(int n, std::string_view one, std::string_view many);
-
 enum class Severity { note, repaired, fatal };
 
 /// One kind of fault, counted over the whole mesh.

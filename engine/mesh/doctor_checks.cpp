@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "engine/core/text.h"
 #include "engine/mesh/touching_edge.h"
 
 namespace spia {

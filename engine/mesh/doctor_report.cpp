@@ -8,11 +8,6 @@
 
 namespace spia {
 
-std::string counted(int n, std::string_view one, std::string_view many)
-{
-    return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
 std::string_view name(Fault fault)
 {
     switch (fault) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
 
 namespace spia {

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <span>
 
+#include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/touching_edge.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "engine/core/text.h"
 #include "engine/mesh/flat_triangles.h"
 
 namespace spia {
@@ -56,7 +57,7 @@ void mend_flat_triangles(MendedSurface& s, const Tally& dropped, DoctorReport& r
             Fault::flat_face, Severity::fatal, left,
             fmt::format("{} no area and cannot be taken out without tearing the surface (first: face {} with the "
                         "vertices {}, {}, {})",
-                        counted(int(repair.left.size()), "triangle has", "triangles have"), number, t[0], t[1], t[2]),
+                        counted(repair.left.size(), "triangle has", "triangles have"), number, t[0], t[1], t[2]),
             "remesh the part there");
     }
     remove(s, repair.removed);

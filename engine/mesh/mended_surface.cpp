@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "engine/core/text.h"
 #include "engine/mesh/flat_triangles.h"
 #include "engine/mesh/largest_piece.h"
 

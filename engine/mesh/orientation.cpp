@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "engine/core/text.h"
+
 namespace spia {
 namespace {
 

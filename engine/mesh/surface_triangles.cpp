@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/core/text.h"
 #include "engine/mesh/edge_vertices.h"
 #include "engine/mesh/split_polygon.h"
 #include "engine/mesh/weld.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/mesh/corner_seam.h"
 #include "engine/mesh/topology.h"
 
@@ -77,7 +78,7 @@ void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
 std::string describe(const CornerSeam& seam)
 {
     return fmt::format("up to {:.3g} degrees at {}", seam.defect * 180 / std::numbers::pi,
-                       counted(int(seam.corner.size()), "corner", "corners"));
+                       counted(seam.corner.size(), "corner", "corners"));
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 #include <string>
 
+#include "engine/core/text.h"
+
 namespace spia {
 namespace {
 
@@ -113,7 +115,7 @@ Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, 
     return note_on(marked,
                    fmt::format("{} of the sheet, {}, {} passed over: what is laid flat is the skin without {} (marks "
                                "of up to {:.2g} of the thickness, {:.4g} mm, are); the first is",
-                               counted(int(marks.size()), "mark or step on a skin", "marks or steps on the skins"),
+                               counted(marks.size(), "mark or step on a skin", "marks or steps on the skins"),
                                depths(marks), marks.size() == 1 ? "is" : "are", marks.size() == 1 ? "it" : "them",
                                deepest_mark, deepest_mark * sheet.thickness));
 }
@@ -127,7 +129,7 @@ Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, SheetSide sid
     return note_on(marked,
                    fmt::format("{} at a skin than inside (a countersink, a counterbore or a chamfer): what is laid "
                                "flat has {}, and circles of the marks show where to sink; the first is a {}",
-                               counted(int(marked.size()), "hole is wider", "holes are wider"),
+                               counted(marked.size(), "hole is wider", "holes are wider"),
                                laid_flat(holes, int(marked.size()), taken, side, thickness), marked.front().what));
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/part/part_file.h"
 #include "engine/remesh/triangle_quality.h"
 

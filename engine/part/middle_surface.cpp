@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <string>
 
+#include "engine/core/text.h"
 #include "engine/mesh/holes_over_bends.h"
 #include "engine/mesh/onto_surfaces.h"
 #include "engine/mesh/round_border.h"

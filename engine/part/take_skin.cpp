@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/measured_cylinders.h"
 #include "engine/mesh/sheet_or_hollow.h"
@@ -286,7 +287,7 @@ bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, SheetSide laid, 
                     "{} arcs of radius {:.4g} and {:.4g} mm on both skins of a sheet of {:.4g} mm, at {:.6g}, {:.6g}, "
                     "{:.6g}{}: it is not as thick there, and inner radius and length are told and laid by the arc "
                     "of the {} skin and the thickness elsewhere",
-                    counted(int(bends.size()), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
+                    counted(bends.size(), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
                     place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : "", of_skin(laid)));
     return true;
 }

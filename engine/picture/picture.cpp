@@ -8,6 +8,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/colour_map.h"
+#include "engine/core/text.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
@@ -328,7 +329,7 @@ private:
         if (scene_.control_nets.size() > 1) { // their nets would hide the surface
             for (const NurbsSurface& net : scene_.control_nets)
                 draw_sides(panel, net, lift_on(panel));
-            sizes = counted(int(scene_.control_nets.size()), "patch", "patches");
+            sizes = counted(scene_.control_nets.size(), "patch", "patches");
         } else if (!scene_.control_nets.empty()) {
             const NurbsSurface* const net = &scene_.control_nets.front();
             const int step = stride(std::max(net->count_u, net->count_v), 40);

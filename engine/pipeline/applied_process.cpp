@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/text.h"
 #include "engine/forming/process/contact_pressure.h"
 #include "engine/forming/process/held_edges.h"
 #include "engine/mesh/topology.h"

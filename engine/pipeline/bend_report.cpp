@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "engine/core/text.h"
+
 namespace spia {
 namespace {
 
@@ -92,7 +94,7 @@ std::vector<std::string> describe(const BendTable& table)
     for (size_t b = 0; b < std::min(most, table.bends.size()); ++b)
         lines.push_back(fmt::format("bend {}: {}", b + 1, describe(table.bends[b])));
     if (table.bends.size() > most)
-        lines.push_back(fmt::format("and {}", counted(int(table.bends.size() - most), "more bend", "more bends")));
+        lines.push_back(fmt::format("and {}", counted(table.bends.size() - most, "more bend", "more bends")));
     for (const std::string& note : all_notes(table))
         lines.push_back("note: " + note);
     return lines;

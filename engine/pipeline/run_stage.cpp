@@ -6,6 +6,7 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/process/rolling.h"
 #include "engine/forming/solver/flips.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/text.h"
 #include "engine/forming/material/membrane_law.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
@@ -136,13 +137,13 @@ std::vector<std::string> shortcomings(const Session& session)
             list.push_back(
                 fmt::format("the outline of the blank crosses itself at {}, the first near {:.4g}, {:.4g} mm: the flat "
                             "sheet would overlap; cut the part or unfold it in steps",
-                            counted(int(crossing.size()), "place", "places"), at[0], at[1]));
+                            counted(crossing.size(), "place", "places"), at[0], at[1]));
         }
         if (const auto& wound = flat.overlap.wound; !wound.empty())
             list.push_back(fmt::format(
                 "the blank winds around {} more than once (first: vertex {}): the flat sheet would "
                 "overlap; cut the part open to there",
-                counted(int(wound.size()), "vertex", "vertices"), session.part->source_vertex[size_t(wound[0])]));
+                counted(wound.size(), "vertex", "vertices"), session.part->source_vertex[size_t(wound[0])]));
     }
     if (session.blank && session.blank->skins && session.blank->skins->sharp_faces > 0)
         list.push_back(fmt::format(

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "engine/core/text.h"
 #include "engine/mesh/doctor.h"
 
 namespace spia {

@@ -5,6 +5,7 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
+#include "engine/core/text.h"
 #include "engine/report/figures/face_values.h"
 #include "engine/report/text/number_text.h"
 #include "engine/report/text/zone_look.h"

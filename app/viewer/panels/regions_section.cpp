@@ -7,6 +7,7 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/core/text.h"
 
 namespace spia::viewer {
 namespace {
@@ -141,7 +142,7 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
         ImGui::CalcTextSize("edit").x + ImGui::CalcTextSize("x").x + 4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
     const float row = std::max(20 * frame.ui.scale, ImGui::GetContentRegionAvail().x - buttons);
     const std::string label = fmt::format("{}  ({}, {})##row", region.name, kinds[int(region.kind)],
-                                          counted(int(region.faces.size()), "face", "faces"));
+                                          counted(region.faces.size(), "face", "faces"));
     bool edit = false;
     ImGui::AlignTextToFramePadding();
     if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {row, 0})) {
@@ -150,7 +151,7 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
             frame.actions.push(SelectRegion{number, ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
     }
     tooltip(fmt::format("{}: {} region of {}. Click to select them, double-click to change name and kind.", region.name,
-                        name(region.kind), counted(int(region.faces.size()), "face", "faces")));
+                        name(region.kind), counted(region.faces.size(), "face", "faces")));
     ImGui::SameLine();
     edit |= ImGui::Button("edit");
     tooltip("Change name and kind");
@@ -212,7 +213,7 @@ void regions_section(Frame& frame)
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     text_input("##regionname", frame.ui.region_name, false, "name (optional)");
-    if (ImGui::Button(("Make region of " + counted(int(document.selected.size()), "face", "faces")).c_str(), {-1, 0}))
+    if (ImGui::Button(("Make region of " + counted(document.selected.size(), "face", "faces")).c_str(), {-1, 0}))
         make_region(frame, std::exchange(frame.ui.region_name, ""), frame.ui.region_kind);
 }
 

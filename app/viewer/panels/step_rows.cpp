@@ -4,6 +4,7 @@
 
 #include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/step_parts.h"
+#include "engine/core/text.h"
 
 namespace spia::viewer {
 namespace {
@@ -180,7 +181,7 @@ void step_row(Frame& frame, int number)
     }
     note_place(frame, fmt::format("step {}", number + 1));
     tooltip(fmt::format("{}: {}. Click to show and edit the step, click again to return to the part.", step.name,
-                        counted(int(step.pick.freed.size()), "face", "faces")));
+                        counted(step.pick.freed.size(), "face", "faces")));
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddCircleFilled({at.x + r, at.y + ImGui::GetTextLineHeight() / 2}, r, ink(status_colour(p, status)), 16);
     draw->AddText({at.x + text_from, at.y}, ImGui::GetColorU32(ImGuiCol_Text),

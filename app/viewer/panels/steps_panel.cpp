@@ -10,6 +10,7 @@
 #include "app/viewer/panels/step_parts.h"
 #include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/core/text.h"
 #include "engine/report/text/number_text.h"
 
 namespace spia::viewer {
@@ -213,7 +214,7 @@ void unfold_step(Frame& frame)
         : !fine ? p.warning
         : good  ? p.good
                 : ImGui::GetStyleColorVec4(ImGuiCol_Text),
-        of_steps && !steps->polish ? ("from " + counted(int(steps->run->states.size()), "step", "steps")).c_str()
+        of_steps && !steps->polish ? ("from " + counted(steps->run->states.size(), "step", "steps")).c_str()
         : of_steps && fine         ? "from steps, polished"
         : fine                     ? "converged"
         : flat.report.converged    ? flat.report.relaxed_vertices > 0 ? "converged, relaxed" : "converged, with a note"
@@ -231,11 +232,10 @@ void unfold_step(Frame& frame)
     figure(frame, "Equivalent strain",
            sheet.strain_equivalent > 0 ? "up to " + figure_text(sheet.strain_equivalent, 3) : "0");
     if (!of_steps || steps->polish)
-        figure(
-            frame, "Solved in",
-            fmt::format("{}, {:.2g} s",
-                        counted(int(flat.report.energy.size() + flat.report.newton.size()), "iteration", "iterations"),
-                        flat.report.seconds));
+        figure(frame, "Solved in",
+               fmt::format("{}, {:.2g} s",
+                           counted(flat.report.energy.size() + flat.report.newton.size(), "iteration", "iterations"),
+                           flat.report.seconds));
 }
 
 /// How the grid came about.

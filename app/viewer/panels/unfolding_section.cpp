@@ -5,6 +5,7 @@
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/step_parts.h"
+#include "engine/core/text.h"
 
 namespace spia::viewer {
 namespace {

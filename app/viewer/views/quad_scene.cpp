@@ -8,6 +8,7 @@
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/views.h"
+#include "engine/core/text.h"
 
 namespace spia::viewer {
 namespace {

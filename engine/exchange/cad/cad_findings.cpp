@@ -82,11 +82,11 @@ void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
     };
     if (!cad.unmeshed.empty())
         report(int(cad.unmeshed.size()),
-               fmt::format("{} could not be meshed: {}", counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"),
+               fmt::format("{} could not be meshed: {}", counted(cad.unmeshed.size(), "CAD face", "CAD faces"),
                            listed(cad.unmeshed)));
     const auto lost = [](const std::vector<std::string>& labels) {
         return fmt::format("{} of the file could not be read: {}",
-                           counted(int(labels.size()), "face or body", "faces and bodies"), listed(labels));
+                           counted(labels.size(), "face or body", "faces and bodies"), listed(labels));
     };
     if (!cad.lost.empty())
         report(int(cad.lost.size()), lost(cad.lost));
@@ -130,10 +130,10 @@ void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
         finding.what.push_back(fmt::format("{:.3g} mm, CAD face {}", cad.slivers[k].width, cad.slivers[k].face));
     }
     finding.first = finding.where.empty() ? -1 : finding.where.front();
-    finding.text = fmt::format(
-        "{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g}: CAD face {}",
-        counted(int(cad.slivers.size()), "sliver among the CAD faces was", "slivers among the CAD faces were"),
-        widest.width, widest.place.x(), widest.place.y(), widest.place.z(), widest.face);
+    finding.text =
+        fmt::format("{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g}: CAD face {}",
+                    counted(cad.slivers.size(), "sliver among the CAD faces was", "slivers among the CAD faces were"),
+                    widest.width, widest.place.x(), widest.place.y(), widest.place.z(), widest.face);
     findings.push_back(std::move(finding));
 }
 
@@ -153,10 +153,10 @@ void report_doubles(const CadContent& cad, std::vector<Finding>& findings)
         finding.what.push_back(fmt::format("CAD face {} on {}", face, on));
     }
     finding.first = finding.where.empty() ? -1 : finding.where.front();
-    finding.text = fmt::format(
-        "{} left out: {}",
-        counted(int(cad.doubled.size()), "CAD face lies on another and was", "CAD faces lie on others and were"),
-        listed(pairs));
+    finding.text =
+        fmt::format("{} left out: {}",
+                    counted(cad.doubled.size(), "CAD face lies on another and was", "CAD faces lie on others and were"),
+                    listed(pairs));
     findings.push_back(std::move(finding));
 }
 

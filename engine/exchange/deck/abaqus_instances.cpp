@@ -1,5 +1,6 @@
 #include "engine/exchange/deck/abaqus_instances.h"
 
+#include "engine/core/text.h"
 #include "engine/mesh/doctor.h"
 
 #include <algorithm>

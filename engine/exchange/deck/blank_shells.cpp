@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/deck/part_shells.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/mesh/doctor.h"
@@ -37,12 +38,12 @@ public:
         ShellMesh& mesh = blank_.mesh;
         if (const auto copies = last_node_ - shells_.last_node; copies > 0)
             mesh.notes.push_back(fmt::format("the part was cut open: {}, with ids from {} on",
-                                             counted(int(copies), "node is a copy", "nodes are copies"),
+                                             counted(copies, "node is a copy", "nodes are copies"),
                                              shells_.last_node + 1));
         if (torn_ > 0)
             mesh.notes.push_back(
                 fmt::format("{} torn by the cut and written as triangles, further ones with ids from {} on",
-                            counted(int(torn_), "element is", "elements are"), shells_.last_element + 1));
+                            counted(torn_, "element is", "elements are"), shells_.last_element + 1));
         return std::move(blank_);
     }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/deck/node_numbers.h"
 #include "engine/exchange/mesh/checked_file.h"
 #include "engine/exchange/text/text_encoding.h"
@@ -277,7 +278,7 @@ void DeckBuilder::drop_absurd_thicknesses()
             thickness_[e] = 0;
         }
     if (dropped > 0)
-        note(fmt::format("{} an invalid thickness of their own, which is ignored (first: element {})",
+        note(fmt::format("{} an own thickness that is invalid and ignored (first: element {})",
                          counted(dropped, "shell has", "shells have"), shell_[first].id));
 }
 

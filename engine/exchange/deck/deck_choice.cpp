@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/read_number.h"
+#include "engine/core/text.h"
 #include "engine/mesh/doctor.h"
 
 namespace spia {

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/mesh/doctor.h"
 
@@ -173,8 +174,8 @@ PartShells part_shells(const PartFile& part, LengthUnit unit)
     take_parts(all, mesh);
     if (!lost.empty())
         mesh.notes.push_back(fmt::format("{} that the part does not have after its repairs {} left out (first: {})",
-                                         counted(int(lost.size()), "element", "elements"),
-                                         lost.size() == 1 ? "is" : "are", lost.front()));
+                                         counted(lost.size(), "element", "elements"), lost.size() == 1 ? "is" : "are",
+                                         lost.front()));
     const auto greatest = [](const std::vector<std::int64_t>& ids) {
         return ids.empty() ? 0 : *std::max_element(ids.begin(), ids.end());
     };

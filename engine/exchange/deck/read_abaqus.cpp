@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/core/read_number.h"
+#include "engine/core/text.h"
 #include "engine/exchange/deck/abaqus_elements.h"
 #include "engine/exchange/deck/abaqus_instances.h"
 #include "engine/exchange/deck/abaqus_keyword.h"
@@ -58,7 +59,7 @@ public:
         close_scope();
         instances_.place_all();
         if (middle_nodes_ > 0)
-            deck_.note(fmt::format("{} nodes on their edges; their corners are taken",
+            deck_.note(fmt::format("{} nodes between corners; the corners are taken",
                                    counted(middle_nodes_, "shell has", "shells have")));
         return deck_.finish("Abaqus input", lines_);
     }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/core/read_number.h"
+#include "engine/core/text.h"
 #include "engine/exchange/deck/deck_builder.h"
 #include "engine/exchange/deck/dyna_card.h"
 #include "engine/exchange/deck/dyna_node_moves.h"
@@ -314,7 +315,7 @@ private:
             deck_.note(fmt::format("{} a thickness at some of their corners only: that of their section is taken",
                                    counted(some_corners_, "shell has", "shells have")));
         if (middle_nodes_ > 0)
-            deck_.note(fmt::format("{} nodes on their edges; their corners are taken",
+            deck_.note(fmt::format("{} nodes between corners; the corners are taken",
                                    counted(middle_nodes_, "shell has", "shells have")));
         if (directed_ > 0)
             deck_.note(

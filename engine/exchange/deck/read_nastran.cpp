@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/read_number.h"
+#include "engine/core/text.h"
 #include "engine/exchange/deck/deck_builder.h"
 #include "engine/exchange/deck/nastran_entries.h"
 #include "engine/exchange/deck/nastran_systems.h"
@@ -242,7 +243,7 @@ private:
                             "CORD2R, CORD2C or CORD2S (first: node {} in system {})",
                             counted(unplaced, "node is", "nodes are"), first, in_system));
         if (middle_nodes_ > 0)
-            deck_.note(fmt::format("{} nodes on their edges; their corners are taken",
+            deck_.note(fmt::format("{} nodes between corners; the corners are taken",
                                    counted(middle_nodes_, "shell has", "shells have")));
     }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/mesh/checked_file.h"
 #include "engine/exchange/text/text_lines.h"
 #include "engine/mesh/doctor.h"
@@ -74,7 +75,7 @@ CheckedFile check_obj(std::string_view file)
                         largest + 1, result.position.size()));
     if (skipped > 0)
         result.notes.push_back(
-            fmt::format("{} skipped: only faces are read", counted(int(skipped), "point, line or free-form piece was",
+            fmt::format("{} skipped: only faces are read", counted(skipped, "point, line or free-form piece was",
                                                                    "points, lines or free-form pieces were")));
     result.content += faces;
     return result;

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/mesh/doctor.h"
 
 namespace spia {
@@ -149,7 +150,7 @@ private:
         if (left_out > 0)
             out_.notes.push_back(fmt::format(
                 "{} left out, the first in line {}",
-                counted(int(left_out), "row whose strain does not rise was", "rows whose strain does not rise were"),
+                counted(left_out, "row whose strain does not rise was", "rows whose strain does not rise were"),
                 first_fall));
         if (kept.size() < fewest_rows)
             fail(fmt::format("{} rows of rising strain are too few for a fit; give at least {}", kept.size(),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "engine/core/text.h"
 #include "engine/report/text/lengths.h"
 
 namespace spia {
@@ -24,8 +25,6 @@ void find_greatest_share(const LimitsResult& limits, const SheetFields& face, Cr
         }
     }
 }
-
-std::string counted(int faces) { return faces == 1 ? "1 face" : fmt::format("{} faces", faces); }
 
 std::string place(const TriMesh& part, int face, LengthUnit lengths)
 {
@@ -58,25 +57,25 @@ CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
     const std::string used = fmt::format("the greatest strain is {:.0f} % of the forming limit", 100 * verdict.share);
     if (above > 0) {
         verdict.kind = CrackVerdict::Kind::cracks;
-        verdict.text = fmt::format("Cracks expected in {}, first at {}: {}.", counted(above),
+        verdict.text = fmt::format("Cracks expected in {}, first at {}: {}.", counted(above, "face", "faces"),
                                    place(session.part->mesh, verdict.face, lengths), used);
     } else if (near > 0) {
         verdict.kind = CrackVerdict::Kind::at_limit;
-        verdict.text =
-            fmt::format("At the limit in {}: {}, which leaves less than the required margin.", counted(near), used);
+        verdict.text = fmt::format("At the limit in {}: {}, which leaves less than the required margin.",
+                                   counted(near, "face", "faces"), used);
     } else {
         verdict.kind = CrackVerdict::Kind::safe;
         verdict.text = fmt::format("No cracks expected: {}.", used);
     }
     if (const int thick = faces(Zone::strong_thickening); thick > 0)
-        verdict.text += fmt::format(" Wrinkles are likely: {} by more than the allowed {:.0f} %.",
-                                    thick == 1 ? "1 face thickens" : fmt::format("{} faces thicken", thick),
-                                    100 * limits.settings.max_thickening);
+        verdict.text +=
+            fmt::format(" Wrinkles are likely: {} by more than the allowed {:.0f} %.",
+                        counted(thick, "face thickens", "faces thicken"), 100 * limits.settings.max_thickening);
     const Eigen::VectorXd& left = limits.zones.distance;
     const auto untold = std::count_if(left.begin(), left.end(), [](double each) { return !std::isfinite(each); });
     if (untold > 0)
-        verdict.text +=
-            fmt::format(" It cannot be told for {}, whose sheet has no forming limit curve.", counted(int(untold)));
+        verdict.text += fmt::format(" It cannot be told for {}, whose sheet has no forming limit curve.",
+                                    counted(untold, "face", "faces"));
     if (above == 0 && near == 0)
         verdict.text += " Bending over radii is not counted.";
     if (!session.blank->report.whole())

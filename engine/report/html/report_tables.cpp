@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "engine/core/text.h"
 #include "engine/exchange/text/text_encoding.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
@@ -381,9 +382,9 @@ std::string assumptions(const Session& session, LengthUnit lengths)
     rows += row("Valid up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
                                            fixed(session.blank->report.trusted_strain, 2)));
     if (const auto& steps = session.options.steps)
-        rows += row("Blank",
-                    fmt::format("made step by step, in {}{}", counted(int(steps->run->states.size()), "step", "steps"),
-                                steps->polish ? ", then polished: the one-step solve was started from it" : ""));
+        rows +=
+            row("Blank", fmt::format("made step by step, in {}{}", counted(steps->run->states.size(), "step", "steps"),
+                                     steps->polish ? ", then polished: the one-step solve was started from it" : ""));
     if (session.options.steps && !session.options.steps->polish)
         rows += row("Method",
                     "region by region onto faces in space, the outermost first; strains from the flat sheet to the "
@@ -406,7 +407,7 @@ static std::string solver_iterations(const Session& session)
                        "<div><h3>Hardening curve</h3>{}</div></div>\n<p>{} energy and {} in {} s; {}; residual "
                        "{} of the nodal forces at yield.</p>\n",
                        residual_chart(report), hardening_chart(session), report.energy.size(),
-                       counted(int(report.newton.size()), "Newton step", "Newton steps"), fixed(report.seconds, 1),
+                       counted(report.newton.size(), "Newton step", "Newton steps"), fixed(report.seconds, 1),
                        escaped(report.reason), power_of_ten(report.residual));
 }
 

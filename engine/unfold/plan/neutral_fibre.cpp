@@ -92,7 +92,7 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
     };
     double k = middle;
     if (inner < -rounding * t)
-        keeps(fmt::format("the sheet of {:.4g} mm is thicker there than its radius allows", t),
+        keeps(fmt::format("the sheet of {:.4g} mm is thicker there than the radius allows", t),
               "check the thickness of the sheet");
     else if (layers.mesh_at == 0 && layers.k)
         k = layers.k->at(bend.inner_radius / t);
@@ -113,11 +113,11 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
     constexpr double most_off = 0.02;
     const std::string finer = "give the part finer triangles there, or measure a trial bend";
     if (at.off + std::abs(at.radius - of_mesh) > most_off * of_mesh)
-        keeps("its triangles leave the cylinder", finer);
+        keeps("triangles leave the cylinder", finer);
     set_k(bend, k, t);
     result.corner = laid_corners(part, at, result.radius);
     if (!std::all_of(result.corner.begin(), result.corner.end(), upright))
-        keeps("its triangles turn over on the cylinder", finer);
+        keeps("triangles turn over on the cylinder", finer);
     bend.laid = bend.why_not.empty();
     return result;
 }

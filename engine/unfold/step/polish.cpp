@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/forming/flatten_from.h"
 #include "engine/forming/solver/flips.h"
 #include "engine/mesh/doctor.h"

@@ -31,7 +31,7 @@ TEST(AbaqusDeck, EveryTypeOfShellGivesItsCorners)
     for (const char* type : {"STRI65", "S6", "CPS6M", "CPE6", "M3D6", "DC2D6"}) {
         const Deck deck = read(nodes + "*Element, type=" + type + "\n 9, 1, 2, 3,\n 5, 6, 8\n");
         EXPECT_EQ(deck.corner.at(0), (std::array<int, 4>{0, 1, 2, -1})) << type;
-        EXPECT_TRUE(has_note(deck, "1 shell has nodes on their edges"));
+        EXPECT_TRUE(has_note(deck, "1 shell has nodes between corners"));
     }
     EXPECT_EQ(read(nodes + "*Element, type=S8R\n 9, 1, 2, 3, 4, 5, 6,\n7, 8\n10, 4,3,2,1,7,6,5,8\n").corner.at(1),
               (std::array<int, 4>{3, 2, 1, 0}));

@@ -82,7 +82,7 @@ TEST(DynaDeck, ShellsWithNodesOnTheirEdgesGiveTheirCorners)
     ASSERT_EQ(deck.elements(), 2);
     EXPECT_EQ(deck.corner[0], (std::array<int, 4>{0, 1, 2, 3}));
     EXPECT_EQ(deck.parts[0].thickness, 0.8);
-    EXPECT_TRUE(has_note(deck, "1 shell has nodes on their edges"));
+    EXPECT_TRUE(has_note(deck, "1 shell has nodes between corners"));
 }
 
 TEST(DynaDeck, PartsWithFurtherCardsDoNotLoseTheNextOne)
@@ -256,7 +256,7 @@ TEST(DynaDeck, ThicknessesWithoutSenseAreToldAndNotTaken)
     }
     EXPECT_EQ(spia::read(shells + "1e5\n").parts[0].thickness, 1e5);
     const Deck own = spia::read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n9,7,1,2,3,4\n-2,-2,-2,-2\n");
-    EXPECT_TRUE(has_note(own, "1 shell has an invalid thickness of their own"));
+    EXPECT_TRUE(has_note(own, "1 shell has an own thickness that is invalid"));
     EXPECT_TRUE(has_note(own, "first: element 9"));
     EXPECT_FALSE(own.parts[0].thickness);
 }

@@ -122,7 +122,7 @@ TEST(NastranDeck, ShellsOfHigherOrderGiveTheirCornersAndOthersAreTold)
         "CHEXA,9,1,1,2,3,4,1,2,+\n+,3,4\nCBAR,10,1,1,2\nFORCE,1,1\nFORCE,2,1\n");
     EXPECT_EQ(deck.elements(), 5);
     EXPECT_EQ(deck.corner[2], (std::array<int, 4>{0, 1, 2, -1}));
-    EXPECT_TRUE(has_note(deck, "2 shells have nodes on their edges"));
+    EXPECT_TRUE(has_note(deck, "2 shells have nodes between corners"));
     EXPECT_TRUE(has_note(deck, "left out: CBAR, CHEXA"));
     EXPECT_TRUE(has_note(deck, "not read: FORCE (2)"));
 }

@@ -1,4 +1,5 @@
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "tests/support/developable.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"

@@ -4,18 +4,10 @@
 
 #include "app/viewer/model/jobs/viewer_model.h"
 #include "app/viewer/model/reports/viewer_words.h"
+#include "engine/core/text.h"
 #include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
-namespace {
-
-std::string counted(size_t count, const char* what)
-{
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-} // namespace
-
 void ViewerModel::start_steps(std::string title, std::function<StepsOutcome(const Progress&, const StepsSoFar&)> work)
 {
     dismiss_before_run(state_.messages);
@@ -104,19 +96,19 @@ void ViewerModel::take_steps_result()
         for (size_t k = 0; k < std::min(most_notes, outcome.notes.size()); ++k)
             say(outcome.opened.empty() ? Severity::hint : Severity::warning, sentence(outcome.notes[k]));
         if (outcome.notes.size() > most_notes)
-            say(Severity::hint,
-                outcome.opened.empty()
-                    ? fmt::format("The same at {}.", counted(outcome.notes.size() - most_notes, "other place"))
-                    : fmt::format("And {} more.", outcome.notes.size() - most_notes));
+            say(Severity::hint, outcome.opened.empty()
+                                    ? fmt::format("The same at {}.", counted(outcome.notes.size() - most_notes,
+                                                                             "other place", "other places"))
+                                    : fmt::format("And {} more.", outcome.notes.size() - most_notes));
         if (!outcome.opened.empty())
-            say(Severity::done,
-                fmt::format("Opened {} from {}{}", counted(document.steps.size(), "step"), outcome.opened.string(),
-                            outcome.notes.empty() ? "" : "; some of them do not fit this part"));
+            say(Severity::done, fmt::format("Opened {} from {}{}", counted(document.steps.size(), "step", "steps"),
+                                            outcome.opened.string(),
+                                            outcome.notes.empty() ? "" : "; some of them do not fit this part"));
         else
-            say(Severity::done,
-                fmt::format("The part has {} and {}; proposed {}.",
-                            counted(outcome.bends->map.regions.size(), "region"),
-                            counted(outcome.bends->map.bends.size(), "bend"), counted(document.steps.size(), "step")));
+            say(Severity::done, fmt::format("The part has {} and {}; proposed {}.",
+                                            counted(outcome.bends->map.regions.size(), "region", "regions"),
+                                            counted(outcome.bends->map.bends.size(), "bend", "bends"),
+                                            counted(document.steps.size(), "step", "steps")));
     }
     const auto& run = outcome.run;
     if (run && (run->run.states.size() > done_before || run->run.blank || !run->run.failure.empty())) {
@@ -143,7 +135,7 @@ void ViewerModel::take_steps_result()
     }
     if (outcome.cancelled)
         say(Severity::hint, run ? fmt::format("{}: cancelled. {} of {} are done.", title, run->run.states.size(),
-                                              counted(run->steps.size(), "step"))
+                                              counted(run->steps.size(), "step", "steps"))
                                 : fmt::format("{}: cancelled.", title));
     else if (!outcome.failure.empty())
         say(Severity::error, sentence(outcome.failure));
@@ -188,12 +180,12 @@ void ViewerModel::report_steps_run(const StepsOutcome& outcome)
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
             warn(fmt::format("In the step \"{}\" {} reach beyond the end of the target, up to {} from its fixed faces.",
-                             state.name, counted(size_t(state.reach.without_room), "face"),
+                             state.name, counted(state.reach.without_room, "face", "faces"),
                              length_text(state.reach.farthest_mm, state_.preferences.lengths)));
     if (const size_t count = last.given_up.size(); count > 0)
         say(Severity::hint,
             fmt::format("The step {}{}. The list shows the steps that were done.", last.given_up.front(),
-                        count > 1 ? fmt::format("; so it was {} more", counted(count - 1, "time")) : ""),
+                        count > 1 ? fmt::format("; so it was {} more", counted(count - 1, "time", "times")) : ""),
             about_steps(state_));
     if (!run.failure.empty()) {
         const size_t failed = run.states.size();
@@ -210,17 +202,17 @@ void ViewerModel::report_steps_run(const StepsOutcome& outcome)
     }
     if (run.flipped > 0)
         warn(fmt::format("{} of the blank are flipped; unfold in smaller steps there.",
-                         counted(size_t(run.flipped), "triangle")));
+                         counted(run.flipped, "triangle", "triangles")));
     const UnfoldState& end = run.states.back();
     if (end.necking > 0)
         warn(fmt::format(
             "{} strained beyond the valid range of the hardening curve: the sheet would neck or crack there.",
-            end.necking == 1 ? "1 triangle is" : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
+            counted(end.necking, "triangle is", "triangles are")));
     if (end.overlap.places > 0)
-        warn(fmt::format("The blank overlaps itself at {}.", counted(size_t(end.overlap.places), "place")));
+        warn(fmt::format("The blank overlaps itself at {}.", counted(end.overlap.places, "place", "places")));
     const auto blank = size_of_blank(state_.document);
     say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
-        fmt::format("Unfolded in {}{}.", counted(run.states.size(), "step"),
+        fmt::format("Unfolded in {}{}.", counted(run.states.size(), "step", "steps"),
                     blank ? ": a blank of " + size_text(blank->size[0], blank->size[1], state_.preferences.lengths) +
                                 of_other_k(state_.document, *blank)
                           : ""),

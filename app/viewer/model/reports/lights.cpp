@@ -10,6 +10,7 @@
 #include "app/viewer/model/reports/export_check.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/coons/cell_quality.h"
+#include "engine/core/text.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/smooth_joins.h"
