@@ -25,6 +25,7 @@
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"
+#include "engine/pipeline/parts_of_table.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/sharp_folds.h"
 #include "engine/pipeline/shortcomings.h"
@@ -77,19 +78,26 @@ PartFile part_of(const UnfoldArguments& arguments)
     return read_part(arguments.part, read, display.progress());
 }
 
-void print_map(const BendMap& map)
+/// @param table  numbers its bends in its own way, by which files and `run` name them
+void print_map(const BendMap& map, const BendTable& table)
 {
     say("part      {}, {}{}\n", counted(map.regions.size(), "region", "regions"),
         counted(map.bends.size(), "bend", "bends"), map.smoothed ? ", its noise smoothed for this" : "");
     constexpr size_t most = 12;
+    std::vector<char> taken;
+    const std::vector<int> number = bends_in_table(map, table, taken);
     for (size_t k = 0; k < std::min(most, map.bends.size()); ++k) {
         const Bend& bend = map.bends[k];
-        say("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm\n",
+        say("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm{}\n",
             map.name(int(map.regions.size() + k)), map.name(bend.a), bend.b >= 0 ? map.name(bend.b) : "edge",
-            bend.angle * degrees, bend.radius, bend.length);
+            bend.angle * degrees, bend.radius, bend.length,
+            number[k] >= 0 && number[k] != int(k) ? fmt::format(" (bend {} of the table)", number[k] + 1) : "");
     }
     if (map.bends.size() > most)
         say("          and {} more\n", map.bends.size() - most);
+    if (const auto small = std::count(taken.begin(), taken.end(), char(0)); small > 0)
+        say("          {} a fold by itself in the steps: too small, or within another\n",
+            counted(small, "bend of the table is not", "bends of the table are not"));
 }
 
 void print_states(const UnfoldRun& run, double diagonal)
@@ -410,7 +418,7 @@ int unfold(const UnfoldArguments& arguments)
     BendMap map = find_bends(part.mesh);
     NeutralFibre fibre = part_bends(part, options.thickness, wanted_k(arguments));
     take_radii(fibre.zone, map);
-    print_map(map);
+    print_map(map, fibre.table);
     RunSteps done;
     try {
         done = run_steps(arguments, part, map, options);

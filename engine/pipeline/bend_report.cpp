@@ -82,7 +82,7 @@ std::string describe(const SheetBend& bend)
     if (bend.sharp)
         return fmt::format("sharp, {:.5g} degrees {}, allowance {:.5g} mm, deduction {:.5g} mm", bend.angle * degrees,
                            bend.up ? "up" : "down", bend.allowance, bend.deduction);
-    return fmt::format("R {:.5g} mm, {:.5g} degrees {}, K {:.3g}, allowance {:.5g} mm, deduction {:.5g} mm{}",
+    return fmt::format("R {:.5g} mm, {:.5g} degrees {}, K {:.4g}, allowance {:.5g} mm, deduction {:.5g} mm{}",
                        bend.inner_radius, bend.angle * degrees, bend.up ? "up" : "down", bend.k, bend.allowance,
                        bend.deduction, bend.laid ? "" : " (not laid by it)");
 }

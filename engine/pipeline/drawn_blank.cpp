@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <map>
 #include <numbers>
 
 #include "engine/mesh/topology.h"
@@ -102,32 +101,6 @@ DrawnBend drawn_bend(const SheetBend& bend, std::string name)
     return drawn;
 }
 
-/// Per bend of the map the one of the table that has most of its faces, else -1; and which of the
-/// table are nobody's.
-std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vector<char>& taken)
-{
-    std::vector<int> result(map.bends.size(), -1);
-    taken.assign(table.bends.size(), 0);
-    for (size_t j = 0; j < table.bends.size(); ++j) {
-        if (table.bends[j].sharp)
-            continue;
-        std::map<int, int> faces_of; // label
-        for (const int f : table.bends[j].faces)
-            ++faces_of[map.label[f]];
-        const auto most = std::max_element(faces_of.begin(), faces_of.end(),
-                                           [](const auto& a, const auto& b) { return a.second < b.second; });
-        if (most == faces_of.end() || most->first < int(map.regions.size()))
-            continue;
-        int& bend = result[size_t(most->first) - map.regions.size()];
-        if (bend >= 0)
-            continue; // two cylinders beside each other, which the map takes for one bend: the
-                      // second is drawn by itself
-        bend = int(j);
-        taken[j] = 1;
-    }
-    return result;
-}
-
 } // namespace
 
 BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
@@ -141,7 +114,7 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
     }
     const std::vector<SheetLine> lines = bend_lines(part.mesh, map, blank.position);
     std::vector<char> taken;
-    const std::vector<int> known = table ? in_table(map, *table, taken) : std::vector<int>(map.bends.size(), -1);
+    const std::vector<int> known = table ? bends_in_table(map, *table, taken) : std::vector<int>(map.bends.size(), -1);
     const std::vector<char> part_of_known =
         table ? parts_of_table(part.mesh, map, *table) : std::vector<char>(map.bends.size(), 0);
     const FreeEnds ends(part.mesh);

@@ -2,10 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/mesh/topology.h"
 
 namespace spia {
+
+std::vector<int> bends_in_table(const BendMap& map, const BendTable& table, std::vector<char>& taken)
+{
+    std::vector<int> result(map.bends.size(), -1);
+    taken.assign(table.bends.size(), 0);
+    for (size_t j = 0; j < table.bends.size(); ++j) {
+        if (table.bends[j].sharp)
+            continue;
+        std::map<int, int> faces_of; // label
+        for (const int f : table.bends[j].faces)
+            ++faces_of[map.label[f]];
+        const auto most = std::max_element(faces_of.begin(), faces_of.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+        if (most == faces_of.end() || most->first < int(map.regions.size()))
+            continue;
+        int& bend = result[size_t(most->first) - map.regions.size()];
+        if (bend >= 0)
+            continue; // two cylinders beside each other, which the map takes for one bend: the
+                      // second is drawn by itself
+        bend = int(j);
+        taken[j] = 1;
+    }
+    return result;
+}
 
 std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const BendTable& table)
 {

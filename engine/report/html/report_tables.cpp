@@ -224,7 +224,12 @@ std::string key_figures(const Session& session, const ResultFigures& figures, Le
     const Eigen::Vector2d size = blank.sides();
     const InUnit in{lengths};
     const int loops = figures.part.boundary_loops;
-    std::string rows = row("Part", fmt::format("{}, {}", in.area(figures.part.area),
+    // The blank of a K factor has another area than the surface that its part is told by.
+    const std::string surface = !session.part->solid ? ""
+                                : session.part->solid->skin == Skin::middle
+                                    ? " (middle surface)"
+                                    : fmt::format(" ({} skin)", name(session.part->solid->skin));
+    std::string rows = row("Part", fmt::format("{}{}, {}", in.area(figures.part.area), surface,
                                                loops == 1   ? "no holes"
                                                : loops == 2 ? "one hole"
                                                             : fmt::format("{} holes", loops - 1)));

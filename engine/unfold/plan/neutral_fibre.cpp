@@ -263,14 +263,14 @@ std::string describe_surface(const BendTable& table, const SheetLayers& layers)
             least = std::min(least, bend.k);
             most = std::max(most, bend.k);
         }
-    constexpr double digits = 5e-4;
+    constexpr double digits = 5e-5;
     const std::string of =
         laid == int(table.bends.size()) ? "" : fmt::format(" ({} of {} bends)", laid, table.bends.size());
     if (laid == 0 || std::max(std::abs(least - middle), std::abs(most - middle)) < 1e-9)
         return "middle surface, K 0.5";
     if (most - least < digits)
-        return fmt::format("neutral fibre, K {:.3g}{}", most, of);
-    return fmt::format("neutral fibre, K {:.3g} to {:.3g}{}", least, most, of);
+        return fmt::format("neutral fibre, K {:.4g}{}", most, of);
+    return fmt::format("neutral fibre, K {:.4g} to {:.4g}{}", least, most, of);
 }
 
 } // namespace
