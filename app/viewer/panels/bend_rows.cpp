@@ -84,7 +84,7 @@ void row(Frame& frame, int number, const SheetBend& made)
     for (const std::string& text :
          {bend.sharp ? "sharp" : fmt::format("{:.4g}", shown_length(bend.inner_radius, lengths)),
           fmt::format("{:.4g}\u00b0", bend.angle * 180 / std::numbers::pi),
-          bend.sharp ? "" : fmt::format("{:.3g}", bend.k),
+          bend.sharp ? "" : fmt::format("{:.4g}", bend.k),
           fmt::format("{:.{}f}", shown_length(bend.allowance, lengths), decimals),
           fmt::format("{:.{}f}", shown_length(bend.deduction, lengths), decimals)}) {
         ImGui::TableNextColumn();

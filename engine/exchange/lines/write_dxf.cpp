@@ -247,7 +247,7 @@ std::string few_digits(double value, int decimals)
 std::string label(const DrawnBend& bend, double mm)
 {
     return fmt::format("{} {}%%d R{}{}", bend.up ? "UP" : "DOWN", few_digits(bend.angle / degree, 2),
-                       few_digits(bend.inner_radius / mm, mm > 1 ? 4 : 3), bend.k ? " K" + few_digits(*bend.k, 3) : "");
+                       few_digits(bend.inner_radius / mm, mm > 1 ? 4 : 3), bend.k ? " K" + few_digits(*bend.k, 4) : "");
 }
 
 bool is_straight(const Eigen::Matrix2Xd& points, double tolerance)

@@ -294,7 +294,7 @@ std::string bend_table(const Session& session, const ReportReader& reader)
         rows += fmt::format(
             "<tr><td>{}</td><td>{}</td><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
             ++number, bend.sharp ? "sharp" : in.fine(bend.inner_radius, 3), fixed(degrees * bend.angle, 2),
-            bend.up ? "up" : "down", bend.sharp ? "" : fixed(bend.k, 3), in.fine(bend.allowance, 3),
+            bend.up ? "up" : "down", bend.sharp ? "" : fmt::format("{:.4g}", bend.k), in.fine(bend.allowance, 3),
             in.fine(bend.deduction, 3), in.fine(bend.length, 1),
             fmt::format("{}, {}, {}", in.fine(bend.place[0], 1), in.fine(bend.place[1], 1), in.fine(bend.place[2], 1)));
     for (const std::string& note : all_notes(*session.bends))
