@@ -18,7 +18,7 @@ LiftResult carry_over(const QuadGrid& planar, std::vector<MeshPoint> place, cons
     for (size_t n = 0; n < place.size(); ++n) {
         const MeshPoint& here = place[n];
         if (here.face < 0)
-            throw InputError(fmt::format("grid node {} ({:.6g}, {:.6g}) has no unique place on the blank; "
+            throw InputError(fmt::format("grid node {} at {:.6g}, {:.6g} mm has no unique place on the blank; "
                                          "use the automatic or the harmonic grid",
                                          n, planar.position(0, Eigen::Index(n)), planar.position(1, Eigen::Index(n))));
         Eigen::Vector3d position = Eigen::Vector3d::Zero();

@@ -151,7 +151,7 @@ std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& cor
 {
     const Eigen::Vector2d where = points.rowwise().mean();
     throw InputError(fmt::format(
-        "the blank cannot be divided into four-sided patches near ({:.6g}, {:.6g}) of its plane: it is too narrow "
+        "the blank cannot be divided into four-sided patches near {:.6g}, {:.6g} mm of its plane: it is too narrow "
         "there beside its arcs; give cuts (--patches FILE)",
         where.x(), where.y()));
 }

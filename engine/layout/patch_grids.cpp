@@ -61,7 +61,7 @@ std::vector<std::unique_ptr<const PatchGrid>> patch_grids(const Layout& layout, 
         const PlanarMesh mesh = mesh_polygon(polygon.point);
         const Eigen::Vector2d where = polygon.point.rowwise().mean();
         const auto fail = [&](const std::string& why) {
-            throw InputError(fmt::format("patch {} of the layout, around ({:.6g}, {:.6g}) of the blank: {}", p + 1,
+            throw InputError(fmt::format("patch {} of the layout, around {:.6g}, {:.6g} mm of the blank: {}", p + 1,
                                          where.x(), where.y(), why));
         };
         if (mesh.triangle.cols() == 0)

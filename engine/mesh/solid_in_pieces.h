@@ -28,10 +28,10 @@ struct SolidInPieces {
         const auto t = mesh.triangle.col(face);
         return (mesh.position.col(t[0]) + mesh.position.col(t[1]) + mesh.position.col(t[2])) / 3;
     }
-    /// "CAD face 7 at 1, 2, 3"
+    /// "CAD face 7 at 1, 2, 3 mm"
     std::string at(int face, const Eigen::Vector3d& place) const
     {
-        return fmt::format("{} at {:.6g}, {:.6g}, {:.6g}",
+        return fmt::format("{} at {:.6g}, {:.6g}, {:.6g} mm",
                            options.face_name ? options.face_name(face) : fmt::format("face {}", face), place.x(),
                            place.y(), place.z());
     }

@@ -66,8 +66,8 @@ void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
     part.doctor.add(
         Fault::seam, Severity::repaired, where,
         fmt::format(
-            "cut open along a seam of {:.4g} mm{}, from vertex {} at {:.4g}, {:.4g}, {:.4g} to vertex {} at {:.4g}, "
-            "{:.4g}, {:.4g}: {}; the blank has an edge on both sides of it, to be joined after forming",
+            "cut open along a seam of {:.4g} mm{}, from vertex {} at {:.4g}, {:.4g}, {:.4g} mm to vertex {} at {:.4g}, "
+            "{:.4g}, {:.4g} mm: {}; the blank has an edge on both sides of it, to be joined after forming",
             cut.length, paths > 1 ? fmt::format(" in {} paths, the first", paths) : "", part.seam[0].front(), from.x(),
             from.y(), from.z(), part.seam[0].back(), to.x(), to.y(), to.z(), cut.why),
         "");

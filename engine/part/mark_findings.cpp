@@ -28,7 +28,7 @@ Finding note_on(const std::vector<MarkedPlace>& marked, const std::string& text)
                     Severity::note,
                     where.count,
                     where.first,
-                    fmt::format("{} at {:.6g}, {:.6g}, {:.6g}", text, first.x(), first.y(), first.z()),
+                    fmt::format("{} at {:.6g}, {:.6g}, {:.6g} mm", text, first.x(), first.y(), first.z()),
                     "",
                     where.where,
                     {}};

@@ -30,7 +30,7 @@ std::string counted_open(const std::vector<OpenSink>& sinks)
                countersinks = std::ranges::none_of(sinks, &OpenSink::counterbore);
     const int count = int(sinks.size());
     const Eigen::Vector3d& place = sinks.front().place;
-    return fmt::format("{} open at a border, a bend or another hole, {}at {:.6g}, {:.6g}, {:.6g}",
+    return fmt::format("{} open at a border, a bend or another hole, {}at {:.6g}, {:.6g}, {:.6g} mm",
                        countersinks   ? counted(count, "countersink is", "countersinks are")
                        : counterbores ? counted(count, "counterbore is", "counterbores are")
                                       : counted(count, "sink is", "countersinks and counterbores are"),

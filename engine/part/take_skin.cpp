@@ -285,7 +285,7 @@ bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, SheetSide laid, 
     const Eigen::Vector3d place = part.mesh.position.col(part.mesh.triangle(0, first.face));
     doubt(part, fmt::format(
                     "{} arcs of radius {:.4g} and {:.4g} mm on both skins of a sheet of {:.4g} mm, at {:.6g}, {:.6g}, "
-                    "{:.6g}{}: it is not as thick there, and inner radius and length are told and laid by the arc "
+                    "{:.6g} mm{}: it is not as thick there, and inner radius and length are told and laid by the arc "
                     "of the {} skin and the thickness elsewhere",
                     counted(bends.size(), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
                     place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : "", of_skin(laid)));

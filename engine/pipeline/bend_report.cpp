@@ -37,7 +37,7 @@ std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& tabl
     for (const auto& [why, bends] : kept) {
         const SheetBend& first = table.bends[bends.front()];
         doubts.push_back(fmt::format(
-            "bend {}{} (R {:.4g} mm, {:.4g} degrees, near {:.4g}, {:.4g}, {:.4g}) is not laid with its allowance: {}; {}",
+            "bend {}{} (R {:.4g} mm, {:.4g} degrees, near {:.4g}, {:.4g}, {:.4g} mm) is not laid with its allowance: {}; {}",
             bends.front() + 1, bends.size() > 1 ? fmt::format(", the first of {},", bends.size()) : "",
             first.inner_radius, first.angle * degrees, first.place[0], first.place[1], first.place[2], why.first,
             why.second));

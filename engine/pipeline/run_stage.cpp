@@ -350,8 +350,8 @@ void make_patches(Session& session, const Progress& progress)
         why.where = out ? fitted->surface_to_mesh.where : fitted->mesh_to_surface.where;
         why.reason = FitShortfall::Reason::data;
         why.text = fmt::format(
-            "the patches stay up to {:.3g} mm from the part, more than the tolerance of {:.3g} mm, near ({:.6g}, "
-            "{:.6g}, {:.6g}): a sharp edge or corner within a patch, or too few control points "
+            "the patches stay up to {:.3g} mm from the part, more than the tolerance of {:.3g} mm, near {:.6g}, "
+            "{:.6g}, {:.6g} mm: a sharp edge or corner within a patch, or too few control points "
             "(--max-control-points); let patches end on flatter edges (--patch-edges DEG), cut "
             "along the edge (--patches FILE), or allow more",
             fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z());

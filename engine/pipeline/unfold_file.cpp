@@ -54,7 +54,7 @@ public:
                                                   // be named
             for (const auto& [name, label] : own_)
                 if (!taken.count(label) && label < int(map.regions.size()))
-                    findings.push_back(fmt::format("the part has a region at {:.4g}, {:.4g}, {:.4g} that the script "
+                    findings.push_back(fmt::format("the part has a region at {:.4g}, {:.4g}, {:.4g} mm that the script "
                                                    "does not name ({:.4g} mm2)",
                                                    map.regions[size_t(label)].place[0],
                                                    map.regions[size_t(label)].place[1],

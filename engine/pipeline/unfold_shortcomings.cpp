@@ -41,7 +41,7 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, con
         if (const LandedOverlap& over = run.states[k].overlap; over.landed > 0)
             poorer.push_back(fmt::format(
                 "step \"{}\" makes the sheet overlap itself at {}, so that it may be impossible; the first is near "
-                "{:.6g}, {:.6g}, {:.6g}",
+                "{:.6g}, {:.6g}, {:.6g} mm",
                 run.states[k].name, counted(over.landed, "place", "places"), over.first[0], over.first[1],
                 over.first[2]));
     if (!run.states.empty() && run.states.back().overlap.places > 0)

@@ -172,7 +172,7 @@ private:
             const Eigen::Vector3d a = laid.point.col(k), b = laid.point.col((k + 1) % laid.point.cols());
             if ((b - a).norm() > stretch * (spacing_ + within_))
                 throw InputError(
-                    fmt::format("the line \"{}\" jumps on the blank from {:.6g}, {:.6g} to {:.6g}, {:.6g}: "
+                    fmt::format("the line \"{}\" jumps on the blank from {:.6g}, {:.6g} to {:.6g}, {:.6g} mm: "
                                 "it crosses a gap of the part, or the sheet lies on itself there",
                                 drawn.name, a[0], a[1], b[0], b[1]));
         }

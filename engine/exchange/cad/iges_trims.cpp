@@ -75,7 +75,7 @@ CurveFitResult in_space(const NurbsSurface& surface, const PlaneCurve& curve)
         const Eigen::Vector2d uv = evaluate(curve, 0);
         const Eigen::Vector3d place = evaluate(surface, uv.x(), uv.y()).position;
         throw ExchangeError(fmt::format(
-            "no IGES file is written: the border of the hole at {:.6g}, {:.6g}, {:.6g} comes no nearer than "
+            "no IGES file is written: the border of the hole at {:.6g}, {:.6g}, {:.6g} mm comes no nearer than "
             "{:.2g} mm to a smooth curve, for the surface folds there; fit it within a tolerance, or choose "
             "other formats",
             place.x(), place.y(), place.z(), fitted.largest));

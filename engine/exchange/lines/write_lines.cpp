@@ -145,7 +145,7 @@ void require_lines(std::span<const SheetLine> lines)
         for (size_t k = 1; k < at.size(); ++k)
             if (!(at[k] > at[k - 1]))
                 throw InputError(
-                    fmt::format("the line \"{}\" has two running points at one place: {:.6g}, {:.6g}, {:.6g}",
+                    fmt::format("the line \"{}\" has two running points at one place: {:.6g}, {:.6g}, {:.6g} mm",
                                 line.name, line.point(0, Eigen::Index(k - 1)), line.point(1, Eigen::Index(k - 1)),
                                 line.point(2, Eigen::Index(k - 1))));
     }

@@ -81,7 +81,7 @@ void add_drawbead(const Drawbead& bead, const TriMesh& part, const LineOnPart& l
         const Eigen::Vector3d normal = area_vector.col(place.on_part.face).normalized();
         const Eigen::Vector3d across = normal.cross(place.along);
         if (!(across.norm() > 0.1))
-            throw InputError(fmt::format("{} leaves the sheet near ({:.6g}, {:.6g}, {:.6g}); it must run along it",
+            throw InputError(fmt::format("{} leaves the sheet near {:.6g}, {:.6g}, {:.6g} mm; it must run along it",
                                          what, place.on_part.position[0], place.on_part.position[1],
                                          place.on_part.position[2]));
         for (int a = 0; a < 3; ++a)

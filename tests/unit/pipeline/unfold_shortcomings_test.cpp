@@ -46,7 +46,7 @@ TEST_F(UnfoldShortcomings, AStateBetweenThatLiesOnItselfIsOne)
         shortcomings(run, 100, {}),
         ElementsAre(HasSubstr("step \"" + run.states[1].name +
                               "\" makes the sheet overlap itself at 4 places, so that it may be impossible; the "
-                              "first is near 1, 2, 3")));
+                              "first is near 1, 2, 3 mm")));
     const Json report = parse_json(unfold_report_json("part.obj", part, map, steps, run, {}, {}), "report");
     ASSERT_EQ(report["shortcomings"].size(), 1U);
     EXPECT_THAT(report["shortcomings"][0].get<std::string>(), HasSubstr("makes the sheet overlap itself at 4 places"));

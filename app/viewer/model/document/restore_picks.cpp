@@ -40,7 +40,7 @@ std::optional<std::vector<int>> by_number(const PartFile& part, const StoredPatc
     return std::vector<int>(found.begin(), found.end());
 }
 
-std::string near(const Eigen::Vector3d& at) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", at[0], at[1], at[2]); }
+std::string near(const Eigen::Vector3d& at) { return fmt::format("{:.4g}, {:.4g}, {:.4g} mm", at[0], at[1], at[2]); }
 
 /// Finds picks again, on the same part by number, and says what is lost.
 class Restorer {
