@@ -190,9 +190,11 @@ TEST(Picture, BlankLiesAsItsCoordinatesSay)
     part.triangle << 0, 0, 0, 0, 1, 2, 3, 4, 2, 3, 4, 5;
     const Blank blank{part.position.topRows(2)};
     const SheetFields fields = samples::smooth_fields(part.vertices());
-    const auto [left, right, top, bottom] = box_of_blank(decoded(picture_png({"L", &part, &blank, &fields})));
+    const Image image = decoded(picture_png({"L", &part, &blank, &fields}));
+    const auto [left, right, top, bottom] = box_of_blank(image);
     EXPECT_NEAR(right - left, 452, 3);
     EXPECT_NEAR(bottom - top, 226, 3);
+    EXPECT_EQ(image.drawn(left, top, left + 2, bottom), 2 * (bottom - top)) << "its left edge is upright";
 }
 
 TEST(Picture, RoundingErrorsHaveNoContours)
