@@ -45,8 +45,8 @@ struct AppliedProcess {
     double edge_restraint = 0;  ///< share of the lock force
     double lock_force_N_mm = 0; ///< of the base sheet
     double held_mm = 0;         ///< length of the edge that is held: the outer one, without seams
-    double upright_mm = 0; ///< of it where the sheet stands within 6 degrees of the stamping
-                           ///< direction: slip is not seen there
+    double upright_mm = 0;      ///< of it where the sheet stands within 6 degrees of the stamping
+                                ///< direction: slip is not seen there
     std::vector<AppliedPilot> pilots;
     std::vector<AppliedPiece> tailored;
     std::optional<Eigen::Vector3d> rolling;

@@ -37,7 +37,7 @@ struct EnergyOptions {
     int most_steps = 200;
     double decrement = 1e-5; ///< stop when a step promises less than this share of the energy
     StepWatch watch = {};
-    std::vector<HeldVertex> held = {};                       ///< each vertex once
+    std::vector<HeldVertex> held = {}; ///< each vertex once
     /// N/mm, by which each is drawn to its place; infinite: it is there from the start on, and
     /// stays
     double spring = std::numeric_limits<double>::infinity();

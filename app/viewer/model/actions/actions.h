@@ -129,7 +129,7 @@ struct SetCorner {
 struct ProposeCorners {}; ///< "propose_corners": automatic ones again
 struct SetGrid {
     GridOptions grid;
-};  ///< "set_grid": columns, rows, cells, smoothing, method, to_bends (share of the lines, 0 to
+}; ///< "set_grid": columns, rows, cells, smoothing, method, to_bends (share of the lines, 0 to
     ///< 0.9), even_cells
 /// "set_fit", of the surface: tolerance (mm, two-sided; null: it runs through the nodes of the
 /// grid), degree_u, degree_v (2 to 5), ends ("averaged", "clamped", "natural"), parameters
@@ -470,7 +470,7 @@ struct ExportFiles {
 struct WriteReport {
     std::filesystem::path file;
     ViewerReportOptions options;
-};  ///< "write_report": HTML; options: title, remarks, pictures, standard_look, tables
+}; ///< "write_report": HTML; options: title, remarks, pictures, standard_look, tables
     ///< {key_figures, ...}
 /// "screenshot" (PNG); no view: the window. Without a size it is as large as on the screen.
 struct Screenshot {
