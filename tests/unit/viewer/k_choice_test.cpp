@@ -8,6 +8,9 @@
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/document/k_choice.h"
 #include "app/viewer/model/document/project_file.h"
+#include "app/viewer/model/document/unfolding_steps.h"
+#include "engine/core/file_content.h"
+#include "engine/core/json_file.h"
 #include "engine/pipeline/shortcomings.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/cad/bent_solid.h"
@@ -132,6 +135,20 @@ TEST_F(KChoice, ABendThatIsNotLaidIsADoubtAndKeepsTheFiguresOfTheBlank)
     }));
     EXPECT_FALSE(readiness(state).fine);
     EXPECT_TRUE(readiness(state).lists_doubts);
+    for (const bool propose : {true, false}) {
+        if (propose)
+            model.apply(ProposeSteps{});
+        else
+            model.apply(RunSteps{});
+        wait();
+    }
+    ASSERT_TRUE(all_steps_done(document)) << last_error();
+    EXPECT_TRUE(std::ranges::any_of(state.messages, [](const Message& message) {
+        return message.severity == Severity::warning && message.text.find("is not laid with") != std::string::npos;
+    })) << "steps";
+    EXPECT_FALSE(std::ranges::any_of(state.messages, [](const Message& message) {
+        return message.severity == Severity::done && message.text.starts_with("Unfolded in");
+    }));
 }
 
 TEST_F(KChoice, IsUndoneAndKeptInProjects)
@@ -146,7 +163,17 @@ TEST_F(KChoice, IsUndoneAndKeptInProjects)
         EXPECT_EQ(kept, document.session.options.k_factor) << text;
     }
     std::filesystem::remove(folder / "k.csv");
-    EXPECT_THROW(open_project(folder / "a.spia", assets / "materials"), InputError);
+    const auto rows = open_project(folder / "a.spia", assets / "materials").document.session.options.k_factor;
+    EXPECT_EQ(rows, document.session.options.k_factor) << "of a table whose file has gone";
+    Json without = parse_json(content_of(folder / "a.spia"), "project"); // as older ones
+    without.erase("k_table_rows");
+    std::ofstream(folder / "b.spia") << without.dump();
+    try {
+        open_project(folder / "b.spia", assets / "materials");
+        ADD_FAILURE() << "the table is nowhere";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr((folder / "k.csv").string() + " is not there any more"));
+    }
     model.apply(Undo{});
     EXPECT_FALSE(document.session.options.k_factor) << "changes in a row are one";
     EXPECT_GT(first_stale(document).value_or(Stage::fit), Stage::solve) << "and the blank of then";

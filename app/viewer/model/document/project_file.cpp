@@ -1,5 +1,6 @@
 #include "app/viewer/model/document/project_file.h"
 
+#include <array>
 #include <charconv>
 #include <fmt/core.h>
 
@@ -45,6 +46,7 @@ struct StoredProject {
     std::optional<Eigen::Vector3d> direction;
     std::string k_factor; ///< empty: none, or a table
     std::optional<StoredPath> k_table;
+    std::vector<std::array<double, 2>> k_table_rows; ///< of it, for when the file has gone
     GridOptions grid;
     bool natural_ends = false; ///< how older files have the ends
     std::optional<FitChoice> fit;
@@ -179,6 +181,7 @@ inline constexpr auto members_of<StoredProject> =
                member("direction", &StoredProject::direction),
                member("k_factor", &StoredProject::k_factor),
                member("k_table", &StoredProject::k_table),
+               member("k_table_rows", &StoredProject::k_table_rows),
                member("grid", &StoredProject::grid),
                member("natural_ends", &StoredProject::natural_ends),
                member("fit", &StoredProject::fit),
@@ -296,7 +299,18 @@ std::optional<KFactor> stored_k(const StoredProject& stored, const fs::path& fil
     if (!stored.k_table && stored.k_factor.empty())
         return std::nullopt;
     try {
-        return k_factor(stored.k_table ? found_path(*stored.k_table, folder).string() : stored.k_factor);
+        if (!stored.k_table)
+            return k_factor(stored.k_factor);
+        const fs::path table = found_path(*stored.k_table, folder);
+        std::error_code ignored;
+        if (fs::is_regular_file(table, ignored))
+            return k_factor(table.string());
+        if (stored.k_table_rows.empty())
+            throw InputError(fmt::format("its table {} is not there any more; put it back", table.string()));
+        std::string text;
+        for (const auto& [ratio, k] : stored.k_table_rows)
+            text += fmt::format("{} {}\n", ratio, k);
+        return parse_k_table(text, table.string());
     } catch (const Error& error) {
         throw InputError(fmt::format("{}: its K factor cannot be read: {}", file.string(), error.what()));
     }
@@ -370,9 +384,11 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.thickness_from = document.thickness_from;
     stored.skins = session.options.flatten.skins;
     stored.direction = session.options.flatten.direction;
-    if (const auto& k = session.options.k_factor; k_source(k) == KSource::table)
+    if (const auto& k = session.options.k_factor; k_source(k) == KSource::table) {
         stored.k_table = stored_path(k->name, folder);
-    else
+        for (const auto& [ratio, value] : k->table)
+            stored.k_table_rows.push_back({ratio, value});
+    } else
         stored.k_factor = k_text(k);
     stored.grid = session.options.grid;
     stored.natural_ends = session.options.interpolate.ends == CurveEnds::natural;

@@ -19,6 +19,7 @@
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
 /// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
 /// | `k_factor`, `k_table` | as in the script action set_k_factor; a table given like the file of the part |
+/// | `k_table_rows` | what the table held, for when its file has gone: R/t and K |
 /// | `fit` | as in the script action set_fit; without it `natural_ends` says the ends |
 /// | `ran` | the last stage that had been run, or null |
 /// | `steps_ran` | whether steps of unfolding had been run |
