@@ -1,6 +1,7 @@
 #include "app/viewer/panels/bend_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/core.h>
 #include <numbers>
 
@@ -13,6 +14,7 @@ namespace spia::viewer {
 namespace {
 
 constexpr int most_rows = 8; ///< in sight at once; more scroll
+constexpr std::array<const char*, 6> titles = {"Bend", "R", "Angle", "K", "Allow.", "Deduct."};
 
 /// The face in the middle of a bend.
 int face_of(const TriMesh& part, const SheetBend& bend)
@@ -38,22 +40,21 @@ std::string bend_words(const Frame& frame, const SheetBend& bend)
 void headings(Frame& frame)
 {
     const std::string unit = std::string(length_word(frame.lengths()));
-    const std::pair<const char*, std::string> columns[] = {
-        {"Bend", "Up or down, seen on the blank as it is drawn"},
-        {"R", "Inner radius, " + unit},
-        {"Angle", "By how much the sheet turns, degrees; 0 is flat"},
-        {"K", "Share of the thickness, from the inner side, at which the neutral fibre lies"},
-        {"Allow.", "Bend allowance, " + unit + ": the breadth of the bend in the blank"},
-        {"Deduct.",
-         "Bend deduction, " + unit + ": what the sum of both outer leg lengths is longer by than the blank"}};
+    const std::array<std::string, 6> help = {
+        "Up or down, seen on the blank as it is drawn",
+        "Inner radius, " + unit,
+        "By how much the sheet turns, degrees; 0 is flat",
+        "Share of the thickness, from the inner side, at which the neutral fibre lies",
+        "Bend allowance, " + unit + ": the breadth of the bend in the blank",
+        "Bend deduction, " + unit + ": what the sum of both outer leg lengths is longer by than the blank"};
     ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).muted);
-    for (const auto& [title, help] : columns) {
+    for (size_t c = 0; c < titles.size(); ++c) {
         ImGui::TableNextColumn();
-        if (title == columns[0].first)
-            ImGui::TextUnformatted(title);
+        if (c == 0)
+            ImGui::TextUnformatted(titles[c]);
         else
-            right_aligned(title);
-        tooltip(help);
+            right_aligned(titles[c]);
+        tooltip(help[c]);
     }
     ImGui::PopStyleColor();
 }
@@ -62,6 +63,17 @@ void headings(Frame& frame)
 bool lies_as_asked(const Session& session)
 {
     return bend_doubts(*session.part, *session.bends, session.options.k_factor.has_value()).empty();
+}
+
+/// Radius, angle, K, allowance and deduction.
+std::array<std::string, 5> figures(const SheetBend& bend, LengthUnit lengths)
+{
+    const int decimals = 3 + more_decimals(lengths);
+    return {bend.sharp ? "sharp" : fmt::format("{:.4g}", shown_length(bend.inner_radius, lengths)),
+            fmt::format("{:.4g}\u00b0", bend.angle * 180 / std::numbers::pi),
+            bend.sharp ? "" : fmt::format("{:.4g}", bend.k),
+            fmt::format("{:.{}f}", shown_length(bend.allowance, lengths), decimals),
+            fmt::format("{:.{}f}", shown_length(bend.deduction, lengths), decimals)};
 }
 
 void row(Frame& frame, int number, const SheetBend& made)
@@ -79,19 +91,31 @@ void row(Frame& frame, int number, const SheetBend& made)
         !bend.faces.empty())
         frame.actions.push(FlyTo{face_of(session.part->mesh, bend)});
     tooltip(bend_words(frame, bend));
-    const LengthUnit lengths = frame.lengths();
-    const int decimals = 3 + more_decimals(lengths);
-    for (const std::string& text :
-         {bend.sharp ? "sharp" : fmt::format("{:.4g}", shown_length(bend.inner_radius, lengths)),
-          fmt::format("{:.4g}\u00b0", bend.angle * 180 / std::numbers::pi),
-          bend.sharp ? "" : fmt::format("{:.4g}", bend.k),
-          fmt::format("{:.{}f}", shown_length(bend.allowance, lengths), decimals),
-          fmt::format("{:.{}f}", shown_length(bend.deduction, lengths), decimals)}) {
+    for (const std::string& text : figures(bend, frame.lengths())) {
         ImGui::TableNextColumn();
         right_aligned(text);
     }
     if (!bend.laid)
         ImGui::PopStyleColor();
+}
+
+/// Of the columns, by the longest text in each: a table that is as broad as all of them together
+/// cuts off no digit.
+std::array<float, 6> widths(const Frame& frame, const std::vector<SheetBend>& bends)
+{
+    std::array<float, 6> width{};
+    const auto widen = [&](size_t column, const std::string& text) {
+        width[column] = std::max(width[column], ImGui::CalcTextSize(text.c_str()).x);
+    };
+    for (size_t c = 0; c < width.size(); ++c)
+        widen(c, titles[c]);
+    widen(0, fmt::format("{} down", bends.size()));
+    for (const SheetBend& bend : bends) {
+        const auto text = figures(with_wanted_k(frame.state.document, bend), frame.lengths());
+        for (size_t c = 0; c < text.size(); ++c)
+            widen(c + 1, text[c]);
+    }
+    return width;
 }
 
 void table(Frame& frame, const std::vector<SheetBend>& bends)
@@ -101,8 +125,8 @@ void table(Frame& frame, const std::vector<SheetBend>& bends)
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {3 * frame.ui.scale, ImGui::GetStyle().CellPadding.y});
     if (ImGui::BeginTable("bends", 6, ImGuiTableFlags_SizingStretchProp | (scrolls ? ImGuiTableFlags_ScrollY : 0),
                           {0, scrolls ? (most_rows + 1) * line : 0})) {
-        for (const float share : {1.3f, 1.f, 1.2f, 1.f, 1.3f, 1.3f})
-            ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, share);
+        for (const float width : widths(frame, bends))
+            ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, width);
         ImGui::TableSetupScrollFreeze(0, 1);
         headings(frame);
         ImGuiListClipper clipper;
