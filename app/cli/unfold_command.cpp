@@ -88,7 +88,7 @@ void print_map(const BendMap& map, const BendTable& table)
     const std::vector<int> number = bends_in_table(map, table, taken);
     for (size_t k = 0; k < std::min(most, map.bends.size()); ++k) {
         const Bend& bend = map.bends[k];
-        say("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm{}\n",
+        say("          {:<8} {:>12} - {:<12} {:7.1f} deg, mean radius {:7.4g} mm, length {:7.4g} mm{}\n",
             map.name(int(map.regions.size() + k)), map.name(bend.a), bend.b >= 0 ? map.name(bend.b) : "edge",
             bend.angle * degrees, bend.radius, bend.length,
             number[k] >= 0 && number[k] != int(k) ? fmt::format(" (bend {} of the table)", number[k] + 1) : "");
