@@ -1,6 +1,7 @@
 #include "engine/pipeline/applied_process.h"
 
 #include <fmt/core.h>
+#include <utility>
 
 #include "engine/core/text.h"
 #include "engine/forming/process/contact_pressure.h"
@@ -108,6 +109,18 @@ std::vector<std::string> describe(const AppliedProcess& process)
         lines.push_back(fmt::format("rolled along {:.4g}, {:.4g}, {:.4g}", (*process.rolling)[0], (*process.rolling)[1],
                                     (*process.rolling)[2]));
     return lines;
+}
+
+std::string left_out_by_steps(const ProcessConditions& process)
+{
+    std::string what;
+    for (const auto& [there, name] : {std::pair{!process.contact.empty(), "tools"},
+                                      {!process.drawbeads.empty(), "drawbeads"},
+                                      {!process.pilots.empty(), "pilots"},
+                                      {process.edge_restraint != 0, "edge restraint"}})
+        if (there)
+            what.append(what.empty() ? "" : ", ").append(name);
+    return what;
 }
 
 } // namespace spia

@@ -59,4 +59,8 @@ AppliedProcess applied_process(const Session& session);
 /// to 1200 N".
 std::vector<std::string> describe(const AppliedProcess& process);
 
+/// What of the wishes unfolding by steps leaves out, for it acts on the part as a whole: "tools,
+/// edge restraint"; empty: nothing.
+std::string left_out_by_steps(const ProcessConditions& process);
+
 } // namespace spia

@@ -55,7 +55,8 @@ std::vector<std::string> unlikely_input(const FlattenOptions& options)
 std::vector<std::string> idle_process(const Session& session)
 {
     std::vector<std::string> list;
-    if (session.options.flatten.process.edge_restraint == 0)
+    // Steps leave the restraint out.
+    if (session.options.steps || session.options.flatten.process.edge_restraint == 0)
         return list;
     constexpr double much = 0.1;
     const AppliedProcess process = applied_process(session);

@@ -341,8 +341,11 @@ std::string tool_rows(const AppliedProcess& process, const ProcessConditions& gi
 std::string process_rows(const Session& session, const InUnit& in)
 {
     const AppliedProcess process = applied_process(session);
-    std::string rows = session.options.steps ? row("Tools, friction", "none: the steps leave them out")
-                                             : tool_rows(process, session.options.flatten.process, in);
+    const std::string left_out = left_out_by_steps(session.options.flatten.process);
+    std::string rows =
+        session.options.steps
+            ? row("Tools, friction", left_out.empty() ? "none" : "none: the steps leave them out: " + left_out)
+            : tool_rows(process, session.options.flatten.process, in);
     for (const AppliedPiece& piece : process.tailored)
         rows +=
             row("Tailored piece: " + piece.name, fmt::format("{}, {}, {}", piece.material, in.text(piece.thickness_mm),

@@ -83,6 +83,16 @@ TEST_F(UnfoldingSteps, SayWhatIsLeftOutAsLongAsItIsThere)
     model.apply(UseBlankOfSteps{false});
     wait();
     EXPECT_THAT(left_out_by_steps(document), HasSubstr("edge restraint"));
+    const auto doubted = [&](std::string_view words) {
+        return std::ranges::any_of(*state.doubts,
+                                   [&](const Doubt& doubt) { return doubt.text.find(words) != std::string::npos; });
+    };
+    EXPECT_TRUE(doubted("leave out what acts on the part as a whole: edge restraint"));
+    model.apply(SetKFactor{"0.4"});
+    wait();
+    EXPECT_FALSE(doubted("may push instead of pull")) << "of a restraint that is not in the blank";
+    EXPECT_EQ(last(Severity::warning).find("may push"), std::string::npos);
+    model.apply(Undo{});
     model.apply(
         AddLine{{.kind = LineKind::drawbead,
                  .point = {document.session.part->mesh.position.col(0), document.session.part->mesh.position.col(1)}}});

@@ -12,6 +12,8 @@
 #include "app/viewer/model/document/step_target.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/applied_process.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/part_bends.h"
 #include "engine/report/figures/figures.h"
 #include "engine/unfold/automatic_unfolding.h"
@@ -63,16 +65,17 @@ void measure_blank(StepsRun& run, const std::optional<KFactor>& k, const Progres
     UnfoldRun laid;
     laid.states = {run.run.states.back()};
     laid.blank = run.run.blank;
+    NeutralFibre fibre;
     try {
         progress.checkpoint(1, "laying the bends");
-        NeutralFibre fibre = part_bends(*run.part, run.sheet.thickness, k);
+        fibre = part_bends(*run.part, run.sheet.thickness, k);
         lay_anew(run.part->mesh, run.sheet, fibre, laid, progress.part(1, 1));
     } catch (const Cancelled&) {
         return; // the steps are done all the same
     } catch (const std::exception&) {
         return; // a K factor for a skin, say: using the blank tells it
     }
-    run.laid = LaidSize{k, size_of(laid.blank->position)};
+    run.laid = LaidSize{k, size_of(laid.blank->position), bend_doubts(*run.part, fibre.table, k.has_value())};
 }
 
 /// The steps of a plan; those that the list begins with likewise are its own.
@@ -146,14 +149,7 @@ bool still_proposed(const Document& document)
 
 std::string left_out_by_steps(const Document& document)
 {
-    const ProcessConditions& process = document.session.options.flatten.process;
-    std::string what;
-    for (const auto& [there, name] : {std::pair{!process.contact.empty(), "tools"},
-                                      {!process.drawbeads.empty(), "drawbeads"},
-                                      {!process.pilots.empty(), "pilots"},
-                                      {process.edge_restraint != 0, "edge restraint"}})
-        if (there)
-            what += (what.empty() ? "" : ", ") + std::string(name);
+    const std::string what = spia::left_out_by_steps(document.session.options.flatten.process);
     return what.empty() ? "" : fmt::format("The steps leave out what acts on the part as a whole: {}.", what);
 }
 

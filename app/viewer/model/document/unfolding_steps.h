@@ -60,6 +60,7 @@ bool still_proposed(const Document& document);
 struct LaidSize {
     std::optional<KFactor> k;
     Eigen::Vector2d size;
+    std::vector<std::string> doubts = {}; ///< bends that are not laid with their allowance
 };
 
 /// What a run gave, and what it was made with.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/picking/handles.h"
 #include "app/viewer/model/picking/measuring.h"
 #include "engine/core/error.h"
@@ -81,7 +82,7 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     else if (result.failed)
         report_failed(result);
     else
-        for (const std::string& text : shortcomings(document.session))
+        for (const std::string& text : shortcomings(as_made(document)))
             if (!of_its_surface(document.session, text))
                 say(Severity::warning, text, about_results(state_));
     const auto& cut = document.session.corner_cut;

@@ -210,6 +210,9 @@ void ViewerModel::report_steps_run(const StepsOutcome& outcome)
             counted(end.necking, "triangle is", "triangles are")));
     if (end.overlap.places > 0)
         warn(fmt::format("The blank overlaps itself at {}.", counted(end.overlap.places, "place", "places")));
+    if (last.laid)
+        for (const std::string& doubt : last.laid->doubts)
+            warn(sentence(doubt));
     const auto blank = size_of_blank(state_.document);
     say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
         fmt::format("Unfolded in {}{}.", counted(run.states.size(), "step", "steps"),

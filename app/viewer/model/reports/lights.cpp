@@ -7,6 +7,7 @@
 
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/document/state.h"
+#include "app/viewer/model/document/unfolding_steps.h"
 #include "app/viewer/model/reports/export_check.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/coons/cell_quality.h"
@@ -374,6 +375,9 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
         upto.blank = made.blank;
         add_shortcomings(ChainStep::unfold, upto, document, known, doubts);
         judge_cracks(document, doubts);
+        if (const std::string left_out = made.options.steps ? left_out_by_steps(document) : ""; !left_out.empty())
+            doubts.push_back({ChainStep::unfold, "The blank is that of the steps. " + left_out,
+                              "Unfold in one step to have it, or take it away."});
     }
     if (made.grid && holds(Stage::grid)) {
         upto.grid = made.grid;
