@@ -75,7 +75,7 @@ CellQuality cell_quality(const QuadGrid& planar)
 {
     const Eigen::VectorXd jacobian = scaled_jacobians(planar);
     CellQuality quality;
-    quality.min_scaled_jacobian = jacobian.size() > 0 ? jacobian.minCoeff() : 1;
+    quality.min_scaled_jacobian = jacobian.size() > 0 ? jacobian.minCoeff(&quality.worst_cell) : 1;
     for (int cell = 0; cell < jacobian.size(); ++cell)
         if (folds(planar, jacobian, cell) && quality.folded_cells++ == 0)
             quality.first_folded = cell;

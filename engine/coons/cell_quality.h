@@ -11,8 +11,9 @@ namespace spia {
 struct CellQuality {
     int folded_cells = 0;           ///< cells that are not strictly convex
     int first_folded = -1;          ///< cell i + j * columns; -1 if none is
-    double min_scaled_jacobian = 0; ///< smallest sine of a corner's angle over all cells; 1 in a
-                                    ///< grid of rectangles
+    int worst_cell = -1;            ///< likewise, the one with the least scaled Jacobian
+    double min_scaled_jacobian = 0; ///< its value, the smallest sine of a corner's angle over all
+                                    ///< cells; 1 in a grid of rectangles
 };
 
 /// Smallest sine of a corner's angle of each cell i + j * columns in the plane (z is not read): 1

@@ -14,6 +14,8 @@ struct QuadGrid {
 
     int nodes() const { return (columns + 1) * (rows + 1); }
     int node(int i, int j) const { return i + j * (columns + 1); }
+    /// Of cell i + j * columns.
+    std::array<int, 2> column_and_row(int cell) const { return {cell % columns, cell / columns}; }
 };
 
 /// The outer boundary of the blank, cut at four corner vertices into the sides v = 0, u = 1, v = 1,

@@ -8,7 +8,6 @@
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/surface_shortcomings.h"
-#include "engine/pipeline/worst_cell.h"
 
 namespace spia {
 namespace {
@@ -152,7 +151,7 @@ std::vector<std::string> shortcomings(const Session& session)
             counted(session.blank->skins->sharp_faces, "face is", "faces are")));
     if (session.grid && session.grid->result.quality.folded_cells > 0) {
         const CellQuality& quality = session.grid->result.quality;
-        const auto [column, row] = worst_cell(session.grid->result.planar);
+        const auto [column, row] = session.grid->result.planar.column_and_row(quality.worst_cell);
         list.push_back(fmt::format("{} folded, worst the cell in column {}, row {} (scaled Jacobian {:.2f}); "
                                    "choose other corners or the harmonic method",
                                    counted(quality.folded_cells, "cell of the grid is", "cells of the grid are"),

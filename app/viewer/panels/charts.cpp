@@ -37,11 +37,11 @@ const SurfaceFigures& surface_figures(Frame& frame)
     return frame.ui.charts.surface.of({surface}, [&] { return surface_figures(*surface); });
 }
 
-const GridFigures& grid_figures(Frame& frame)
+const std::array<double, 4>& side_lengths(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    return frame.ui.charts.grid.of({session.grid, session.blank},
-                                   [&] { return grid_figures(*session.grid, session.blank->blank); });
+    return frame.ui.charts.sides.of({session.grid, session.blank},
+                                    [&] { return side_lengths(*session.grid, session.blank->blank); });
 }
 
 const CrackVerdict& crack_verdict(Frame& frame)

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -38,7 +39,7 @@ struct Charts {
     Memo<BlankSize, std::shared_ptr<const PartFile>, Blank> blank;
     Memo<SheetFigures, Blank> sheet;
     Memo<SurfaceFigures, Surface> surface;
-    Memo<GridFigures, std::shared_ptr<const GridStage>, Blank> grid;
+    Memo<std::array<double, 4>, std::shared_ptr<const GridStage>, Blank> sides;
     Memo<CrackVerdict, Blank, Limits, LengthUnit> cracks;
 };
 
@@ -49,7 +50,7 @@ const PartFigures& examined_figures(Frame& frame);
 const BlankSize& blank_size(Frame& frame);
 const SheetFigures& sheet_figures(Frame& frame); ///< without_noise()
 const SurfaceFigures& surface_figures(Frame& frame);
-const GridFigures& grid_figures(Frame& frame);
+const std::array<double, 4>& side_lengths(Frame& frame);
 /// Whether the sheet will crack.
 const CrackVerdict& crack_verdict(Frame& frame);
 

@@ -255,8 +255,6 @@ std::string route_words(GridRoute route)
 void grid_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    const GridFigures* quality = session.grid ? &grid_figures(frame) : nullptr;
-    const bool sliver = quality && quality->scaled_jacobian < least_scaled_jacobian;
     step_heading(frame, 4, "Corners and grid",
                  light(frame, ChainStep::grid, status(frame, Stage::grid, session.grid != nullptr)));
     doubt_rows(frame, ChainStep::grid);
@@ -330,16 +328,17 @@ void grid_step(Frame& frame)
                               result.quality.folded_cells ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text));
         figure(frame, "Folded cells", fmt::format("{}", result.quality.folded_cells));
         ImGui::PopStyleColor();
-        const GridFigures& figures = *quality;
+        const bool sliver = result.quality.min_scaled_jacobian < least_scaled_jacobian;
         ImGui::PushStyleColor(ImGuiCol_Text, sliver ? p.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-        figure(frame, "Sharpest cell (1 is best)", fmt::format("{:.3f}", figures.scaled_jacobian));
+        figure(frame, "Sharpest cell (1 is best)", fmt::format("{:.3f}", result.quality.min_scaled_jacobian));
         ImGui::PopStyleColor();
         tooltip("Scaled Jacobian: 1 in a rectangle, 0 where a cell folds");
-        figure(frame, "It is in column, row", fmt::format("{}, {}", figures.column, figures.row));
+        const auto [column, row] = result.planar.column_and_row(result.quality.worst_cell);
+        figure(frame, "It is in column, row", fmt::format("{}, {}", column, row));
         tooltip(
             "Cell with the smallest value, counted from 0: column from corner 1 to 2, row from corner 1 to 4. It is circled in the quad mesh.");
         std::string lengths;
-        for (const double length : figures.side)
+        for (const double length : side_lengths(frame))
             lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", shown_length(length, frame.lengths()));
         figure(frame, "Sides", fmt::format("{} {}", lengths, length_word(frame.lengths())));
     }

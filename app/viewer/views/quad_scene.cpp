@@ -8,6 +8,7 @@
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/views.h"
+#include "engine/coons/cell_quality.h"
 #include "engine/core/text.h"
 
 namespace spia::viewer {
@@ -32,17 +33,16 @@ std::string what_is_missing(const Session& session)
 }
 
 /// A ring and a text at the cell with the least scaled Jacobian.
-void add_worst_cell(Scene& scene, const LaterResults& made, const GridFigures& figures, bool dark)
+void add_worst_cell(Scene& scene, const QuadGrid& lifted, const CellQuality& quality, bool dark)
 {
-    const QuadGrid& lifted = made.lifted->lifted;
-    const int i = figures.column, j = figures.row;
+    const auto [i, j] = lifted.column_and_row(quality.worst_cell);
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const int node : {lifted.node(i, j), lifted.node(i + 1, j), lifted.node(i, j + 1), lifted.node(i + 1, j + 1)})
         middle += lifted.position.col(node) / 4;
     scene.rings.push_back({middle});
-    scene.labels.push_back({middle,
-                            fmt::format("min {} (column {}, row {})", value_text(figures.scaled_jacobian, ""), i, j),
-                            palette::text(dark)});
+    scene.labels.push_back(
+        {middle, fmt::format("min {} (column {}, row {})", value_text(quality.min_scaled_jacobian, ""), i, j),
+         palette::text(dark)});
 }
 
 } // namespace
@@ -99,10 +99,7 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
         lifted.position.col(lifted.node(lifted.columns, lifted.rows)), lifted.position.col(lifted.node(0, lifted.rows));
     add_corners(result, corner, state.view.dark);
     if (by_quality && state.document.display.extremes)
-        add_worst_cell(
-            result, made,
-            cache.grid_figures.of({made.grid, made.blank}, [&] { return grid_figures(*made.grid, made.blank->blank); }),
-            state.view.dark);
+        add_worst_cell(result, lifted, made.grid->result.quality, state.view.dark);
     add_measurements(result, state, View::quads, cache);
     add_part_outlines(result, state, cache);
     return result;

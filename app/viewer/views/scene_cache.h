@@ -158,7 +158,6 @@ struct SceneCache {
     Memo<OverlapShape, Blank> overlap;
     Memo<StageShape, Grid, bool> planar_grid;
     Memo<StageShape, Grid, Lifted, bool> quads;
-    Memo<GridFigures, Grid, Blank> grid_figures;
     Memo<LineList, Part> boundary_on_quads;
     using Net = std::shared_ptr<const MultiPatch>;
     Memo<Net, Surface, Deformed> net;

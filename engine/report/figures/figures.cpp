@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/coons/cell_quality.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
@@ -69,19 +68,15 @@ SheetFigures without_noise(SheetFigures figures)
     return figures;
 }
 
-GridFigures grid_figures(const GridStage& grid, const Blank& blank)
+std::array<double, 4> side_lengths(const GridStage& grid, const Blank& blank)
 {
-    GridFigures figures;
+    std::array<double, 4> lengths{};
     for (size_t k = 0; k < 4; ++k) {
         const std::vector<int>& side = grid.boundary.side[k];
         for (size_t i = 1; i < side.size(); ++i)
-            figures.side[k] += (blank.position.col(side[i]) - blank.position.col(side[i - 1])).norm();
+            lengths[k] += (blank.position.col(side[i]) - blank.position.col(side[i - 1])).norm();
     }
-    const QuadGrid& planar = grid.result.planar;
-    figures.scaled_jacobian = scaled_jacobians(planar).minCoeff(&figures.worst_cell);
-    figures.column = figures.worst_cell % planar.columns;
-    figures.row = figures.worst_cell / planar.columns;
-    return figures;
+    return lengths;
 }
 
 SurfaceFigures surface_figures(const SurfaceStage& surface)

@@ -47,13 +47,8 @@ SheetFigures sheet_figures(const SheetFields& face, const std::vector<int>& face
 /// For people: thinning and strains that are noise() are 0.
 SheetFigures without_noise(SheetFigures figures);
 
-struct GridFigures {
-    std::array<double, 4> side{}; ///< mm, on the blank
-    int worst_cell = -1;          ///< i + j * columns: the one with the least scaled Jacobian
-    int column = 0, row = 0;      ///< of that cell, from 0
-    double scaled_jacobian = 1;   ///< its value
-};
-GridFigures grid_figures(const GridStage& grid, const Blank& blank);
+/// mm, on the blank; of its cells GridResult::quality tells.
+std::array<double, 4> side_lengths(const GridStage& grid, const Blank& blank);
 
 /// Of one surface, or of all patches together.
 struct SurfaceFigures {

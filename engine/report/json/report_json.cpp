@@ -16,7 +16,6 @@
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/shortcomings.h"
-#include "engine/pipeline/worst_cell.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/surface_json.h"
 
@@ -343,7 +342,7 @@ Json grid_json(const Session& session)
             {"no_bends", grid.no_bends},
             {"evened", grid.evened},
             {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},
-            {"worst_cell", worst_cell(grid.planar)},
+            {"worst_cell", grid.planar.column_and_row(grid.quality.worst_cell)},
             {"corners", corners},
             {"filled_holes", grid.filled->holes}};
 }

@@ -75,4 +75,14 @@ TEST(CellQuality, TheScaledJacobianIsTheSineOfTheSharpestAngle)
     EXPECT_NEAR(cell_quality(grid).min_scaled_jacobian, std::cos(0.5), 1e-14);
 }
 
+TEST(CellQuality, TheWorstCellIsTheOneWithTheSharpestAngle)
+{
+    QuadGrid grid = unit_cells(4, 2);
+    grid.position.col(grid.node(4, 2)).head<2>() << 3.6, 1.6; // of the last cell a corner is drawn in
+    const CellQuality quality = cell_quality(grid);
+    EXPECT_NEAR(quality.min_scaled_jacobian, 5. / 13, 1e-12);
+    EXPECT_EQ(quality.worst_cell, 7);
+    EXPECT_EQ(grid.column_and_row(quality.worst_cell), (std::array{3, 1}));
+}
+
 } // namespace spia

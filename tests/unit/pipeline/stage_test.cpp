@@ -315,12 +315,13 @@ TEST(Report, NamesEveryShortcoming)
     poorer.overlap.wound = {0};
     session.blank = std::make_shared<FlattenResult>(poorer);
     GridStage folded = *session.grid;
-    folded.result.quality.folded_cells = 2;
     QuadGrid& planar = folded.result.planar = {4, 3, Eigen::Matrix3Xd::Zero(3, 20)};
     for (int j = 0; j <= 3; ++j)
         for (int i = 0; i <= 4; ++i)
             planar.position.col(planar.node(i, j)) << i, j, 0;
     planar.position.col(planar.node(4, 3)) << 3.3, 2.3, 0; // a corner of one cell alone, pushed in
+    folded.result.quality = cell_quality(planar);
+    folded.result.quality.folded_cells = 2;
     session.grid = std::make_shared<GridStage>(folded);
     std::string all;
     for (const std::string& text : shortcomings(session))

@@ -38,15 +38,13 @@ TEST(Figures, AreTheLeastAndGreatestOfAllVerticesFacesAndCells)
     EXPECT_EQ(sheet.strain_minor[0], minor);
     EXPECT_EQ(sheet.strain_major[1], major);
 
-    const GridFigures grid = grid_figures(*session.grid, session.blank->blank);
-    const QuadGrid& planar = session.grid->result.planar;
-    const Eigen::VectorXd jacobian = scaled_jacobians(planar);
+    const GridResult& grid = session.grid->result;
+    const Eigen::VectorXd jacobian = scaled_jacobians(grid.planar);
     for (const double value : jacobian)
-        EXPECT_GE(value, grid.scaled_jacobian);
-    EXPECT_EQ(jacobian[grid.column + grid.row * planar.columns], grid.scaled_jacobian);
-    EXPECT_EQ(grid.column + grid.row * planar.columns, grid.worst_cell);
+        EXPECT_GE(value, grid.quality.min_scaled_jacobian);
+    EXPECT_EQ(jacobian[grid.quality.worst_cell], grid.quality.min_scaled_jacobian);
     double border = 0, around = 0; // the outline of the blank, as the loop of its boundary
-    for (const double side : grid.side)
+    for (const double side : side_lengths(*session.grid, session.blank->blank))
         border += side;
     for (const auto& side : session.grid->boundary.side)
         for (size_t k = 0; k + 1 < side.size(); ++k)
@@ -54,24 +52,6 @@ TEST(Figures, AreTheLeastAndGreatestOfAllVerticesFacesAndCells)
                 std::hypot(session.blank->blank.position(0, side[k]) - session.blank->blank.position(0, side[k + 1]),
                            session.blank->blank.position(1, side[k]) - session.blank->blank.position(1, side[k + 1]));
     EXPECT_NEAR(border, around, 1e-9);
-}
-
-TEST(Figures, OfAGridTellWhereItsWorstCellIs)
-{
-    GridStage grid;
-    QuadGrid& planar = grid.result.planar;
-    planar.columns = 4;
-    planar.rows = 2;
-    planar.position.setZero(3, planar.nodes());
-    for (int j = 0; j <= planar.rows; ++j)
-        for (int i = 0; i <= planar.columns; ++i)
-            planar.position.col(planar.node(i, j)).head<2>() << i, j;
-    planar.position.col(planar.node(4, 2)).head<2>() << 3.6, 1.6;
-    const GridFigures figures = grid_figures(grid, {});
-    EXPECT_NEAR(figures.scaled_jacobian, 5. / 13, 1e-12);
-    EXPECT_EQ(figures.worst_cell, 7);
-    EXPECT_EQ(figures.column, 3);
-    EXPECT_EQ(figures.row, 1);
 }
 
 TEST(Figures, OfARectangleWithAHoleAreThoseOfTheClosedForm)

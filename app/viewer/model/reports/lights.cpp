@@ -10,7 +10,6 @@
 #include "app/viewer/model/document/unfolding_steps.h"
 #include "app/viewer/model/reports/export_check.h"
 #include "app/viewer/model/reports/viewer_words.h"
-#include "engine/coons/cell_quality.h"
 #include "engine/core/text.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
@@ -148,7 +147,7 @@ void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
 void judge_cells(const Document& document, std::vector<Doubt>& doubts)
 {
     const GridResult& grid = document.session.grid->result;
-    const double worst = scaled_jacobians(grid.planar).minCoeff();
+    const double worst = grid.quality.min_scaled_jacobian;
     if (grid.quality.folded_cells > 0 || worst >= least_scaled_jacobian)
         return;
     Doubt doubt{
