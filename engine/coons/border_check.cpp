@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/coons/locate_nodes.h"
+#include "engine/core/text.h"
 #include "engine/mesh/vectors.h"
 
 namespace spia {
@@ -106,6 +108,19 @@ bool follows_outline(const GridResult& grid, bool overlaps)
 bool border_is_possible(const GridResult& grid, bool overlaps)
 {
     return impossible_corner(grid.planar) < 0 && follows_outline(grid, overlaps);
+}
+
+std::string soundness(const GridResult& grid, bool overlaps)
+{
+    if (is_sound(grid))
+        return "sound";
+    if (impossible_corner(grid.planar) >= 0)
+        return "no cell fits into a corner";
+    if (!follows_outline(grid, overlaps))
+        return "the border nodes do not follow the outline";
+    if (const int folded = grid.quality.folded_cells; folded > 0)
+        return counted(folded, "cell folds", "cells fold");
+    return counted(grid.nodes_outside, "node is off the blank", "nodes are off the blank");
 }
 
 std::pair<int, double> widest_vertex(const FilledMesh& filled)

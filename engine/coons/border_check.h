@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <utility>
 
 #include "engine/coons/grid.h"
@@ -20,6 +21,9 @@ bool follows_outline(const GridResult& grid, bool overlaps);
 /// Whether cells with straight edges are possible between these border nodes: neither of the two
 /// above is in the way.
 bool border_is_possible(const GridResult& grid, bool overlaps);
+
+/// Whether a grid is sound, and what keeps it from it, in words.
+std::string soundness(const GridResult& grid, bool overlaps);
 
 /// The vertex of the outline with the largest inner angle in the blank, and that angle in degrees.
 std::pair<int, double> widest_vertex(const FilledMesh& filled);

@@ -81,77 +81,128 @@ void choose_counts(const GridContext& context, const GridOptions& options, int& 
     rows = options.rows > 0 ? options.rows : count(v);
 }
 
+std::string soundness(const GridContext& context, const GridResult& grid)
+{
+    return soundness(grid, context.blank.overlaps_itself());
+}
+
+bool border_is_possible(const GridContext& context, const GridResult& grid)
+{
+    return border_is_possible(grid, context.blank.overlaps_itself());
+}
+
 GridResult coons_patch(const GridContext& context, int columns, int rows, const GridOptions& options,
-                       const Progress& progress)
+                       AttemptReport& report, const Progress& progress)
 {
     GridResult grid = empty_grid(context, columns, rows, even_border(columns, rows));
-    blend_opposite_sides(grid.planar);
-    locate_nodes(context.blank, grid);
-    for (int sweeps = 0; !is_sound(grid) && sweeps < options.smoothing; sweeps += sweeps_between_looks) {
-        progress.checkpoint(double(sweeps) / options.smoothing, "smoothing the grid");
-        smooth_interior(grid.planar, std::min(sweeps_between_looks, options.smoothing - sweeps));
-        grid.route = GridRoute::smoothed_coons;
+    const auto sound = [&] { return is_sound(grid); };
+    const auto blend = [&](AttemptReport& own) {
+        blend_opposite_sides(grid.planar);
         locate_nodes(context.blank, grid);
-    }
+        own.reason = soundness(context, grid);
+        return true;
+    };
+    const auto smooth = [&](AttemptReport& own) {
+        for (int sweeps = 0; !is_sound(grid) && sweeps < options.smoothing; sweeps += sweeps_between_looks) {
+            progress.checkpoint(double(sweeps) / options.smoothing, "smoothing the grid");
+            smooth_interior(grid.planar, std::min(sweeps_between_looks, options.smoothing - sweeps));
+            grid.route = GridRoute::smoothed_coons;
+            locate_nodes(context.blank, grid);
+        }
+        own.reason = soundness(context, grid);
+        return true;
+    };
+    report.within = try_in_order({{"blended between the sides", {}, blend, sound},
+                                  {"smoothed", [&] { return options.smoothing > 0; }, smooth, sound}});
     return grid;
 }
 
 /// The grid of a map, untangled where it folds. Sound, or the last one tried.
 GridResult untangled_grid(const SquareMap& map, const GridContext& context, const MapLines& lines,
-                          const BorderParameters& border, const Progress& progress)
+                          const BorderParameters& border, AttemptReport& report, const Progress& progress)
 {
-    GridResult grid = grid_of_map(map, context, lines, border);
-    if (is_sound(grid) || !border_is_possible(grid, context.blank.overlaps_itself()))
-        return grid;
-    untangle_on_blank(context.blank, grid, progress.part(0, 0.5));
-    if (!is_sound(grid) && map.route == GridRoute::harmonic) {
-        // Where the map squeezes much of the blank into a corner, the patch is the better start.
+    GridResult grid;
+    const auto sound = [&] { return is_sound(grid); };
+    const auto as_it_is = [&](AttemptReport& own) {
+        grid = grid_of_map(map, context, lines, border);
+        own.reason = soundness(context, grid);
+        return true;
+    };
+    const auto untangle = [&](AttemptReport& own) {
+        untangle_on_blank(context.blank, grid, progress.part(0, 0.5));
+        own.reason = soundness(context, grid);
+        return true;
+    };
+    // Where the map squeezes much of the blank into a corner, the patch is the better start.
+    const auto untangle_patch = [&](AttemptReport& own) {
         blend_opposite_sides(grid.planar);
         untangle_on_blank(context.blank, grid, progress.part(0.5, 1));
-    }
+        own.reason = soundness(context, grid);
+        return true;
+    };
+    report.within = try_in_order(
+        {{"map as it is", {}, as_it_is, [&] { return is_sound(grid) || !border_is_possible(context, grid); }},
+         {"untangled", {}, untangle, sound},
+         {"untangled from the Coons patch", [&] { return map.route == GridRoute::harmonic; }, untangle_patch, sound}});
     return grid;
 }
 
 /// Border nodes that divide the sides evenly, else that slide as little as they have to for cells
 /// to follow the outline.
-GridResult harmonic_grid(GridContext& context, int columns, int rows, const Progress& progress)
+GridResult harmonic_grid(GridContext& context, int columns, int rows, AttemptReport& report, const Progress& progress)
 {
     if (!context.harmonic)
         context.harmonic.emplace(harmonic_map(*context.filled, context.boundary, progress.part(0, 0.2)),
                                  GridRoute::harmonic);
     GridResult grid;
+    std::vector<PlannedAttempt> attempts;
     for (const double reach : slides) {
-        const BorderParameters border = reach > 0 ? slid_border(*context.filled, context.boundary, columns, rows, reach)
-                                                  : even_border(columns, rows);
-        grid = untangled_grid(*context.harmonic, context, even_lines(columns, rows), border, progress.part(0.2, 1));
-        if (is_sound(grid) || border_is_possible(grid, context.blank.overlaps_itself()))
-            break;
+        const auto with_border = [&, reach](AttemptReport& own) {
+            const BorderParameters border = reach > 0
+                                                ? slid_border(*context.filled, context.boundary, columns, rows, reach)
+                                                : even_border(columns, rows);
+            grid = untangled_grid(*context.harmonic, context, even_lines(columns, rows), border, own,
+                                  progress.part(0.2, 1));
+            return true;
+        };
+        attempts.push_back({reach > 0 ? fmt::format("border nodes slide {} cells", reach) : "border nodes stay even",
+                            {},
+                            with_border,
+                            [&] { return is_sound(grid) || border_is_possible(context, grid); }});
     }
+    report.within = try_in_order(attempts);
     return grid;
 }
 
 /// The same from a map that leaves lobes and windings their area, first with border nodes that
 /// divide the sides evenly.
-GridResult area_balanced_grid(const GridContext& context, int columns, int rows, GridResult best,
-                              const Progress& progress)
+/// @param best  not sound; becomes so, or one whose border is possible
+/// @returns whether it has become another
+bool area_balanced_grid(const GridContext& context, int columns, int rows, GridResult& best, AttemptReport& report,
+                        const Progress& progress)
 {
     const MapLines lines = even_lines(columns, rows);
-    for (const bool slide : {false, true}) {
+    const auto from_map = [&](bool slide, AttemptReport& own) {
         const Progress here = progress.part(0.5 * slide, 0.5 + 0.5 * slide);
         std::optional<HarmonicMap> opened = area_balanced_map(
             context.harmonic->map, {.oblong = double(columns) / rows, .slide = slide}, here.part(0, 0.5));
-        if (!opened)
-            continue;
+        if (!opened) {
+            own.reason = "the map folds";
+            return false;
+        }
         const SquareMap map(std::move(*opened), GridRoute::area_balanced);
-        GridResult grid =
-            untangled_grid(map, context, lines, border_of_map(map.map, context.boundary, lines), here.part(0.5, 1));
-        if (is_sound(grid))
-            return grid;
-        if (const bool overlaps = context.blank.overlaps_itself();
-            !border_is_possible(best, overlaps) && border_is_possible(grid, overlaps))
+        GridResult grid = untangled_grid(map, context, lines, border_of_map(map.map, context.boundary, lines), own,
+                                         here.part(0.5, 1));
+        const bool better = is_sound(grid) || (!border_is_possible(context, best) && border_is_possible(context, grid));
+        if (better)
             best = std::move(grid);
-    }
-    return best;
+        return better;
+    };
+    const auto sound = [&] { return is_sound(best); };
+    report.within =
+        try_in_order({{"sides of the map stay", {}, [&](AttemptReport& own) { return from_map(false, own); }, sound},
+                      {"sides of the map slide", {}, [&](AttemptReport& own) { return from_map(true, own); }, sound}});
+    return std::any_of(report.within.begin(), report.within.end(), [](const AttemptReport& own) { return own.won; });
 }
 
 /// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a
@@ -239,37 +290,63 @@ std::vector<std::array<int, 2>> finer_counts(int cells)
     return counts;
 }
 
+/// The two maps, with cells of columns x rows, then with twice as many along both if they may be
+/// more.
+void add_map_attempts(std::vector<PlannedAttempt>& attempts, GridContext& context, GridResult& grid, int columns,
+                      int rows, bool may_refine, const Progress& progress)
+{
+    const int levels = may_refine ? 1 + most_refinements : 1;
+    for (int level = 0; level < levels; ++level) {
+        const Progress here = progress.part(double(level) / levels, double(level + 1) / levels);
+        const int m = columns << level, n = rows << level;
+        const std::string finer = level > 0 ? ", twice the cells" : "";
+        const auto harmonic = [&, here, level, m, n](AttemptReport& own) {
+            grid = harmonic_grid(context, m, n, own, here.part(0, 0.5));
+            grid.refinements = level;
+            return true;
+        };
+        const auto area_balanced = [&, here, level, m, n](AttemptReport& own) {
+            const bool kept = area_balanced_grid(context, m, n, grid, own, here.part(0.5, 1));
+            grid.refinements = level;
+            return kept;
+        };
+        const auto sound = [&] { return is_sound(grid); };
+        attempts.push_back({"harmonic map" + finer, {}, harmonic, sound});
+        attempts.push_back({"area-balanced map" + finer, {}, area_balanced, sound});
+    }
+}
+
 GridResult sound_grid(GridContext& context, const GridOptions& options, const Progress& progress)
 {
     int columns = 0, rows = 0;
     choose_counts(context, options, columns, rows);
+    const bool may_refine = options.columns == 0 && options.rows == 0;
 
     GridResult grid;
-    if (options.method != GridMethod::harmonic) {
-        grid = coons_patch(context, columns, rows, options, progress.part(0.1, 0.2));
-        if (is_sound(grid) || options.method == GridMethod::coons)
-            return grid;
-    }
-    const bool may_refine = options.columns == 0 && options.rows == 0;
-    const int levels = may_refine ? 1 + most_refinements : 1;
-    for (int level = 0; level < levels; ++level) {
-        const Progress here = progress.part(0.2 + 0.3 * level / levels, 0.2 + 0.3 * (level + 1) / levels);
-        const int m = columns << level, n = rows << level;
-        grid = harmonic_grid(context, m, n, here.part(0, 0.5));
-        if (!is_sound(grid))
-            grid = area_balanced_grid(context, m, n, std::move(grid), here.part(0.5, 1));
-        grid.refinements = level;
-        if (is_sound(grid))
-            return grid;
-    }
-    if (border_is_possible(grid, context.blank.overlaps_itself())) {
+    const auto coons = [&](AttemptReport& own) {
+        grid = coons_patch(context, columns, rows, options, own, progress.part(0.1, 0.2));
+        return true;
+    };
+    const auto spiral = [&](AttemptReport& own) {
         std::vector<std::array<int, 2>> counts = {{columns, rows}};
         if (may_refine)
             counts = finer_counts(options.cells);
-        if (std::optional<GridResult> spiral = spiral_grid(context, counts, progress.part(0.5, 1)))
-            return std::move(*spiral);
+        std::optional<GridResult> made = spiral_grid(context, counts, own, progress.part(0.5, 1));
+        if (made)
+            grid = std::move(*made);
+        return made.has_value();
+    };
+    std::vector<PlannedAttempt> attempts;
+    if (options.method != GridMethod::harmonic)
+        attempts.push_back({"Coons patch", {}, coons, [&] { return is_sound(grid); }});
+    if (options.method != GridMethod::coons) {
+        add_map_attempts(attempts, context, grid, columns, rows, may_refine, progress.part(0.2, 0.5));
+        attempts.push_back({"spiral grid", [&] { return border_is_possible(context, grid); }, spiral});
     }
-    throw_impossible(context, grid, options.file_number);
+    grid.attempts = try_in_order(attempts);
+    if (!is_sound(grid) && options.method != GridMethod::coons)
+        throw_impossible(context, grid, options.file_number);
+    return grid;
 }
 
 } // namespace

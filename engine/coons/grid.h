@@ -6,6 +6,7 @@
 
 #include "engine/coons/cell_quality.h"
 #include "engine/coons/quad_grid.h"
+#include "engine/core/attempts.h"
 #include "engine/core/progress.h"
 #include "engine/forming/blank.h"
 #include "engine/mesh/fill_holes.h"
@@ -58,6 +59,7 @@ struct GridResult {
     std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is
                                               ///< outside
     std::shared_ptr<const FilledMesh> filled; ///< part and blank with their holes closed
+    std::vector<AttemptReport> attempts = {}; ///< how it was found
 };
 
 /// Fills the blank with columns x rows quads between its four sides. The border nodes divide the

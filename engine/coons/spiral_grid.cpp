@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "engine/coons/area_balanced_map.h"
 #include "engine/coons/border_check.h"
@@ -77,23 +78,38 @@ GridResult locally_untangled(const SquareMap& map, const GridContext& context, i
 } // namespace
 
 std::optional<GridResult> spiral_grid(const GridContext& context, const std::vector<std::array<int, 2>>& counts,
-                                      const Progress& progress)
+                                      AttemptReport& report, const Progress& progress)
 {
-    std::vector<SquareMap> maps;
+    struct WeighedMap {
+        double area_weight;
+        SquareMap map;
+    };
+    std::vector<WeighedMap> maps;
     for (size_t k = 0; k < area_weights.size(); ++k)
         if (auto map = slid_map(context, area_weights[k], progress.part(0.1 * double(k), 0.1 * double(k + 1))))
-            maps.push_back(std::move(*map));
-    double done = 0.2;
+            maps.push_back({area_weights[k], std::move(*map)});
+    std::optional<GridResult> sound;
+    std::vector<PlannedAttempt> attempts;
     const double each = 0.8 / double(std::max<size_t>(1, counts.size() * maps.size()));
     for (const auto& [columns, rows] : counts)
-        for (const SquareMap& map : maps) {
-            const bool last = std::array{columns, rows} == counts.back();
-            GridResult grid = locally_untangled(map, context, columns, rows, last, progress.part(done, done + each));
-            if (is_sound(grid))
-                return grid;
-            done += each;
+        for (const WeighedMap& weighed : maps) {
+            const double done = 0.2 + each * double(attempts.size());
+            const auto on_map = [&, columns = columns, rows = rows, done](AttemptReport& own) {
+                const bool last = std::array{columns, rows} == counts.back();
+                GridResult grid =
+                    locally_untangled(weighed.map, context, columns, rows, last, progress.part(done, done + each));
+                own.reason = soundness(grid, context.blank.overlaps_itself());
+                if (is_sound(grid))
+                    sound = std::move(grid);
+                return sound.has_value();
+            };
+            attempts.push_back(
+                {fmt::format("{} x {} cells, area weight {}", columns, rows, weighed.area_weight), {}, on_map});
         }
-    return std::nullopt;
+    if (maps.empty())
+        report.reason = "the maps fold";
+    report.within = try_in_order(attempts);
+    return sound;
 }
 
 } // namespace spia

@@ -13,8 +13,9 @@ namespace spia {
 /// (untangle_locally()).
 /// @param context  with its harmonic map
 /// @param counts  columns and rows, tried in turn
+/// @param report  gets the attempts within
 /// @return the first sound grid; nothing if there is none
 std::optional<GridResult> spiral_grid(const GridContext& context, const std::vector<std::array<int, 2>>& counts,
-                                      const Progress& progress = {});
+                                      AttemptReport& report, const Progress& progress = {});
 
 } // namespace spia

@@ -136,6 +136,34 @@ TEST(CoonsGrid, AnLWithACornerBehindTheBendFoldsAsAPatchAndIsMended)
     expect_sound(grid, "L");
 }
 
+TEST(CoonsGrid, TellsWhichAttemptsItTook)
+{
+    const TriMesh rectangle = shapes::rectangle(30, 20, 7, 5);
+    const GridResult plain = grid_of(rectangle, outlines::as_blank(rectangle));
+    ASSERT_EQ(plain.attempts.size(), 1u);
+    EXPECT_TRUE(plain.attempts[0].won);
+    EXPECT_EQ(plain.attempts[0].reason, "sound");
+    ASSERT_EQ(plain.attempts[0].within.size(), 1u) << "nothing was to be smoothed";
+
+    // The Coons patch of an L whose corner is behind the bend folds, smoothed or not.
+    const TriMesh l = outlines::part(outlines::l_shape(10, 3, 0.25));
+    const std::vector<Eigen::Vector2d> corners = {{0, 0}, {10, 0}, {10, 3}, {0, 10}};
+    const GridResult bent = grid_of(l, corners);
+    ASSERT_GT(bent.attempts.size(), 1u);
+    EXPECT_EQ(bent.attempts[0].name, "Coons patch");
+    EXPECT_EQ(bent.attempts[0].within.size(), 2u);
+    EXPECT_NE(bent.attempts[0].reason, "sound");
+    for (const AttemptReport& each : bent.attempts)
+        EXPECT_EQ(each.won, &each == &bent.attempts.back()) << each.name;
+    EXPECT_EQ(bent.attempts.back().reason, "sound");
+    const GridResult patch = grid_of(l, corners, {.method = GridMethod::coons});
+    ASSERT_EQ(patch.attempts.size(), 1u);
+    EXPECT_EQ(patch.attempts[0].reason, bent.attempts[0].reason);
+    const GridResult harmonic = grid_of(l, corners, {.method = GridMethod::harmonic});
+    EXPECT_EQ(harmonic.attempts[0].name, "harmonic map");
+    EXPECT_EQ(harmonic.attempts.size() + 1, bent.attempts.size());
+}
+
 TEST(CoonsGrid, FoldsNoCellOnDifficultOutlines)
 {
     using namespace outlines;
