@@ -2,6 +2,7 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/core/attempts.h"
 #include "engine/core/progress.h"
 #include "engine/forming/blank.h"
 #include "engine/forming/material/material.h"
@@ -62,6 +63,8 @@ struct SolveReport {
         Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; zero where pins hold
                                  ///< it
     double seconds = 0;
+    std::vector<AttemptReport> attempts = {}; ///< how it was found; of a blank that steps gave,
+                                              ///< none
 
     /// Whether it is the solution of all that was asked for.
     bool whole() const { return system == SolvedSystem::strict && process_share == 1; }

@@ -246,6 +246,9 @@ TEST(Process, WhatTheSheetBearsDoesNotDependOnHowMuchIsAskedFor)
         ASSERT_GT(flat.report.process_share, 0);
         ASSERT_LT(flat.report.process_share, 1);
         EXPECT_NE(flat.report.system, SolvedSystem::energy);
+        ASSERT_EQ(flat.report.attempts.size(), 2u);
+        EXPECT_FALSE(flat.report.attempts[0].won) << "all forces at once";
+        EXPECT_TRUE(flat.report.attempts[1].won) << "in load steps";
         EXPECT_NE(flat.report.reason.find("too much force"), std::string::npos) << flat.report.reason;
         EXPECT_EQ(flat.report.trusted_strain, uniform_strain(options.material.hardening, options.curve.trusted_strain))
             << "forces in steps are applied with the continued curve";

@@ -63,6 +63,11 @@ TEST(Relaxation, SolvesACrumpledSheetAndSaysWhatItGaveUp)
     EXPECT_EQ(result.flipped_triangles, 0);
     EXPECT_GT(result.report.relaxed_vertices, 0);
     EXPECT_NE(result.report.reason.find("relaxed at"), std::string::npos) << result.report.reason;
+    const std::vector<AttemptReport>& tried = result.report.attempts;
+    ASSERT_EQ(tried.size(), 3u) << "both with the curve as given came first";
+    EXPECT_FALSE(tried[0].won || tried[1].won);
+    EXPECT_TRUE(tried[2].won);
+    EXPECT_EQ(tried[2].reason.substr(0, 9), "converged") << tried[2].reason;
 }
 
 } // namespace spia

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/core/text.h"
 #include "engine/sparse/gmres.h"
 #include "engine/sparse/lu.h"
 
@@ -278,6 +279,17 @@ std::vector<int> most_loaded(const Eigen::VectorXd& R)
 
 } // namespace
 
+std::string describe(const EquilibriumResult& result)
+{
+    const std::string steps = counted(result.steps.size(), "step", "steps");
+    switch (result.ended) {
+    case Ended::converged: return "converged in " + steps;
+    case Ended::stalled: return fmt::format("stalled at a residual of {:.1e} after {}", result.residual, steps);
+    case Ended::too_many_steps: break;
+    }
+    return fmt::format("a residual of {:.1e} left after {}", result.residual, steps);
+}
+
 EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work,
                                     const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
                                     const EquilibriumOptions& options, const Progress& progress)
@@ -294,23 +306,27 @@ EquilibriumResult solve_relaxed_equilibrium(const TriMesh& part, const std::vect
     constexpr double rounds = double(most_mismatch.size()) + 2;
     const size_t vertices = size_t(part.vertices());
     std::vector<NewtonStep> steps;
-    const auto keep_steps = [&](EquilibriumResult& result) {
+    const auto keep_steps = [&](const EquilibriumResult& result) {
         steps.insert(steps.end(), result.steps.begin(), result.steps.end());
-        if (result.ended == Ended::converged)
-            result.steps = steps;
-        return result.ended == Ended::converged;
     };
 
     work.relax(std::vector<char>(vertices, 1));
     Newton newton(part, element, work, start, matrix, cholesky, options);
-    EquilibriumResult all = newton.solve(start, near_enough, progress.part(0, 1 / rounds));
-    if (!keep_steps(all)) {
-        all.steps = std::move(steps);
+    const EquilibriumResult all = newton.solve(start, near_enough, progress.part(0, 1 / rounds));
+    if (all.ended != Ended::converged)
         return all;
-    }
+    keep_steps(all);
+
     std::vector<char> relaxed(vertices, 0);
     Eigen::Matrix2Xd looked_at = all.position;
-    for (size_t round = 0; round < most_mismatch.size(); ++round) {
+    EquilibriumResult result;
+    const auto solve = [&](const Progress& here, AttemptReport& own) {
+        result = newton.solve(all.position, options.tolerance, here);
+        own.reason = describe(result);
+        keep_steps(result);
+        return result.ended == Ended::converged;
+    };
+    const auto relaxed_above = [&](size_t round, AttemptReport& own) {
         work.set_axes(looked_at); // where a failed attempt went astray, the mismatch has grown
         if (round > 0) {
             const Eigen::VectorXd mismatch = work.mismatch();
@@ -321,15 +337,22 @@ EquilibriumResult solve_relaxed_equilibrium(const TriMesh& part, const std::vect
             for (const int v : most_loaded(work.residual(looked_at)))
                 relaxed[size_t(v)] = 1;
         work.relax(relaxed);
-        EquilibriumResult result = newton.solve(
-            all.position, options.tolerance, progress.part((1 + double(round)) / rounds, (2 + double(round)) / rounds));
-        if (keep_steps(result))
-            return result;
-        looked_at = std::move(result.position);
-    }
-    work.relax(std::vector<char>(vertices, 1));
-    EquilibriumResult result = newton.solve(all.position, options.tolerance, progress.part(1 - 1 / rounds, 1));
-    keep_steps(result);
+        const bool converged = solve(progress.part((1 + double(round)) / rounds, (2 + double(round)) / rounds), own);
+        looked_at = result.position;
+        return converged;
+    };
+    const auto all_relaxed = [&](AttemptReport& own) {
+        work.relax(std::vector<char>(vertices, 1));
+        return solve(progress.part(1 - 1 / rounds, 1), own);
+    };
+    std::vector<PlannedAttempt> attempts;
+    for (size_t round = 0; round < most_mismatch.size(); ++round)
+        attempts.push_back({round == 0 ? "no vertex relaxed"
+                                       : fmt::format("vertices relaxed of mismatch above {}", most_mismatch[round]),
+                            {},
+                            [&, round](AttemptReport& own) { return relaxed_above(round, own); }});
+    attempts.push_back({"all vertices relaxed", {}, all_relaxed});
+    result.attempts = try_in_order(attempts);
     result.steps = std::move(steps);
     return result;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/attempts.h"
 #include "engine/core/progress.h"
 #include "engine/forming/solver/energy_stage.h"
 #include "engine/forming/solver/virtual_work.h"
@@ -19,8 +20,12 @@ struct EquilibriumResult {
     std::vector<NewtonStep> steps;
     double residual = 0; ///< relative, at position
     Eigen::Vector3d resultant =
-        Eigen::Vector3d::Zero(); ///< of the forces that hold the blank: N, N, N mm about its centre
+        Eigen::Vector3d::Zero();              ///< of the forces that hold the blank: N, N, N mm about its centre
+    std::vector<AttemptReport> attempts = {}; ///< of solve_relaxed_equilibrium()
 };
+
+/// How it ended, in words.
+std::string describe(const EquilibriumResult& result);
 
 /// Solves the virtual-work equations by Newton's method with the stabilized tangent
 /// (expected_stress.h) and a line search on

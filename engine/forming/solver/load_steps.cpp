@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <optional>
 
+#include "engine/core/text.h"
 #include "engine/forming/solver/equilibrium.h"
 #include "engine/forming/solver/sheet_fields.h"
 
@@ -16,7 +17,7 @@ namespace {
 /// if there is none without
 ///                forces either
 std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
-                                         const Progress& progress)
+                                         AttemptReport& own, const Progress& progress)
 {
     const ExternalForces whole = context.external;
     context.external = whole.scaled(0);
@@ -24,7 +25,9 @@ std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eige
     Eigen::Matrix2Xd reached = solve_at_once(context, X, share, progress.part(0, 0.3));
     report.energy = share.energy;
     report.newton = share.newton;
+    own.within = std::move(share.attempts);
     if (share.system == SolvedSystem::energy) {
+        own.reason = "no equilibrium without forces either";
         context.external = whole;
         return std::nullopt;
     }
@@ -38,7 +41,8 @@ std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eige
     constexpr int most_tries = 60;
     double step = 0.5;
     share.process_share = 0;
-    for (int tries = 0; tries < most_tries && share.process_share < 1; ++tries) {
+    int tries = 0;
+    for (; tries < most_tries && share.process_share < 1; ++tries) {
         if (step < std::max(fine * share.process_share, nothing))
             break;
         const double wanted = std::min(1., share.process_share + step);
@@ -67,6 +71,8 @@ std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eige
         share.trusted_strain = trusted_strain(context, Curve::continued, context.options.material.hardening);
     context.external = whole.scaled(share.process_share); // what is in the blank, for who goes on
                                                           // from it
+    own.reason = fmt::format("{:.2g} % of the forces after {}", 100 * share.process_share,
+                             counted(tries, "load step", "load steps"));
     share.energy = std::move(report.energy);
     share.newton = std::move(report.newton);
     report = std::move(share);
@@ -113,17 +119,27 @@ Eigen::Matrix2Xd solve(const SolveContext& context, const Eigen::Matrix2Xd& X, S
             report.reason += "; the pilots hold nothing in it";
         return blank;
     }
-    Eigen::Matrix2Xd blank = solve_at_once(context, X, report, progress.part(0, 0.6));
-    if (report.system == SolvedSystem::energy) {
-        std::optional<Eigen::Matrix2Xd> stepped = in_steps(context, X, report, progress.part(0.6, 1));
-        if (!stepped) {
-            report.process_share = 0;
-            report.reason += "; the forces of the tools are not in it";
-            if (!context.external.held.empty() && !context.anchored)
-                report.reason += ", and the pilots hold nothing";
-            return blank;
-        }
-        blank = std::move(*stepped);
+    Eigen::Matrix2Xd blank;
+    const auto at_once = [&](AttemptReport& own) {
+        blank = solve_at_once(context, X, report, progress.part(0, 0.6));
+        own.within = std::move(report.attempts);
+        return true;
+    };
+    const auto stepwise = [&](AttemptReport& own) {
+        std::optional<Eigen::Matrix2Xd> stepped = in_steps(context, X, report, own, progress.part(0.6, 1));
+        if (stepped)
+            blank = std::move(*stepped);
+        return stepped.has_value();
+    };
+    const auto in_equilibrium = [&] { return report.system != SolvedSystem::energy; };
+    report.attempts =
+        try_in_order({{"all forces at once", {}, at_once, in_equilibrium}, {"forces in load steps", {}, stepwise}});
+    if (!in_equilibrium()) {
+        report.process_share = 0;
+        report.reason += "; the forces of the tools are not in it";
+        if (!context.external.held.empty() && !context.anchored)
+            report.reason += ", and the pilots hold nothing";
+        return blank;
     }
     describe_result(context, blank, report);
     return blank;

@@ -68,7 +68,7 @@ void take(EquilibriumResult& equilibrium, SolveReport& report)
 /// The equations as they are, from a start X; none: they did not converge.
 std::optional<Eigen::Matrix2Xd> strict_equilibrium(const SolveContext& context, Eigen::Matrix2Xd X,
                                                    const EquilibriumOptions& newton, SolveReport& report,
-                                                   const Progress& progress)
+                                                   AttemptReport& own, const Progress& progress)
 {
     place(context, X);
     const Sheet sheet = sheet_with(context, Curve::given);
@@ -76,6 +76,7 @@ std::optional<Eigen::Matrix2Xd> strict_equilibrium(const SolveContext& context, 
     EquilibriumResult result =
         solve_equilibrium(context.part, context.element, work, X, context.matrix, context.cholesky, newton, progress);
     take(result, report);
+    own.reason = describe(result);
     if (!report.converged)
         return std::nullopt;
     report.reason = "converged";
@@ -184,69 +185,121 @@ EquilibriumOptions quick(EquilibriumOptions newton)
 /// With the curve as asked for, after its own energy stage and with a sparse LU in reserve.
 /// @param obstacle why there is none
 std::optional<Eigen::Matrix2Xd> as_asked_for(const SolveContext& context, const Eigen::Matrix2Xd& X,
-                                             SolveReport& report, std::string& obstacle, const Progress& progress)
+                                             SolveReport& report, std::string& obstacle, AttemptReport& own,
+                                             const Progress& progress)
 {
     constexpr int few_steps = 40; // more means that strain is gathering in single elements
     const EnergyResult energy =
         energy_stage(context, Curve::given, X, near_enough, std::min(few_steps, context.options.most_energy_steps),
                      report, progress.part(0, 0.3));
-    obstacle = "the energy stage did not end";
+    obstacle = own.reason = "the energy stage did not end";
     if (energy.ended != Ended::converged)
         return std::nullopt;
     std::optional<Eigen::Matrix2Xd> solved =
-        strict_equilibrium(context, energy.position, newton_of(context.options), report, progress.part(0.3, 1));
+        strict_equilibrium(context, energy.position, newton_of(context.options), report, own, progress.part(0.3, 1));
     obstacle = fmt::format("the equations stalled at a residual of {:.1e}", report.residual);
     return solved;
 }
 
 /// With the curve continued from the uniform strain on, equations relaxed where they have to be; at
 /// last the blank of the energy stage.
-Eigen::Matrix2Xd continued(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
-                           const std::string& obstacle, const Progress& progress)
-{
-    const FlattenOptions& options = context.options;
-    const Sheet sheet = sheet_with(context, Curve::continued);
-    report.trusted_strain = trusted_strain(context, Curve::continued, options.material.hardening);
-    VirtualWork work(context.part, context.element, sheet, context.external);
-    EnergyResult held{std::move(X)};
-    double from = 0;
-    for (const double decrement : {near_enough, exact}) { // most often the first will do
-        held = energy_stage(context, Curve::continued, std::move(held.position), decrement, options.most_energy_steps,
-                            report, progress.part(from, from + 0.12));
-        place(context, held.position);
-        EquilibriumResult result =
-            solve_relaxed_equilibrium(context.part, context.element, work, held.position, context.matrix,
-                                      context.cholesky, newton_of(options), progress.part(from + 0.12, from + 0.5));
-        take(result, report);
-        from += 0.5;
-        if (!report.converged)
-            continue;
-        report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
-        if (report.relaxed_vertices == 0) { // from here the curve as given may be near
-            SolveReport again = report;
-            again.trusted_strain = trusted_strain(context, Curve::given, options.material.hardening);
-            const std::optional<Eigen::Matrix2Xd> solved = strict_equilibrium(
-                context, result.position, quick(newton_of(options)), again, progress.part(from, from));
-            if (solved && near_each_other(*solved, result.position)) {
-                report = std::move(again);
-                return *solved;
-            }
-            report.newton = std::move(again.newton);
-        }
-        // else nothing is left of the system
-        report.converged = report.relaxed_vertices < context.part.vertices();
-        report.system = !report.converged             ? SolvedSystem::energy
-                        : report.relaxed_vertices > 0 ? SolvedSystem::relaxed
-                                                      : SolvedSystem::continued;
-        report.reason = describe_convergence(report, obstacle, options.curve.trusted_strain, context.part.vertices());
-        return std::move(result.position);
+class ContinuedSolve {
+public:
+    /// @param X  roughly that of the energy stage
+    /// @param obstacle  why the curve as given was not kept
+    ContinuedSolve(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report, const std::string& obstacle)
+        : context_(context), sheet_(sheet_with(context, Curve::continued)),
+          work_(context.part, context.element, sheet_, context.external), report_(report),
+          obstacle_(obstacle), energy_{std::move(X)}
+    {
+        report_.trusted_strain = trusted_strain(context, Curve::continued, context.options.material.hardening);
     }
-    report.reason = fmt::format(
-        "the virtual-work system was not solved (residual {:.1e} after {} steps); the blank is the one of least energy "
-        "with the thickness held{}",
-        report.residual, report.newton.size(), held.ended == Ended::converged ? "" : ", itself not fully converged");
-    return std::move(held.position);
-}
+
+    Eigen::Matrix2Xd solve(AttemptReport& own, const Progress& progress)
+    {
+        const auto from_near = [&](AttemptReport& here) { // most often that will do
+            return from_energy(near_enough, here, progress.part(0, 0.5));
+        };
+        const auto from_exact = [&](AttemptReport& here) { return from_energy(exact, here, progress.part(0.5, 1)); };
+        own.within = try_in_order({{"equilibrium from near the least energy", {}, from_near},
+                                   {"equilibrium from the least energy", {}, from_exact},
+                                   {"least energy", {}, [&](AttemptReport& here) { return take_energy(here); }}});
+        return std::move(*solved_);
+    }
+
+private:
+    bool from_energy(double decrement, AttemptReport& own, const Progress& progress)
+    {
+        energy_ = energy_stage(context_, Curve::continued, std::move(energy_.position), decrement,
+                               context_.options.most_energy_steps, report_, progress.part(0, 0.24));
+        place(context_, energy_.position);
+        const auto continued = [&](AttemptReport& here) { return relaxed(here, progress.part(0.24, 1)); };
+        const auto given = [&](AttemptReport& here) { return as_given(here, progress.part(1, 1)); };
+        own.within =
+            try_in_order({{"hardening curve continued", {}, continued, [&] { return report_.relaxed_vertices > 0; }},
+                          {"hardening curve as given, from there", [&] { return solved_.has_value(); }, given}});
+        return solved_.has_value();
+    }
+
+    bool relaxed(AttemptReport& own, const Progress& progress)
+    {
+        const int vertices = context_.part.vertices();
+        EquilibriumResult result =
+            solve_relaxed_equilibrium(context_.part, context_.element, work_, energy_.position, context_.matrix,
+                                      context_.cholesky, newton_of(context_.options), progress);
+        take(result, report_);
+        own.within = std::move(result.attempts);
+        own.reason = describe(result);
+        if (!report_.converged)
+            return false;
+        report_.relaxed_vertices = int(std::count(work_.relaxed().begin(), work_.relaxed().end(), char(1)));
+        report_.converged = report_.relaxed_vertices < vertices; // else nothing is left of the system
+        report_.system = !report_.converged             ? SolvedSystem::energy
+                         : report_.relaxed_vertices > 0 ? SolvedSystem::relaxed
+                                                        : SolvedSystem::continued;
+        report_.reason = describe_convergence(report_, obstacle_, context_.options.curve.trusted_strain, vertices);
+        solved_ = std::move(result.position);
+        return true;
+    }
+
+    /// With no vertex relaxed the curve as given may be near.
+    bool as_given(AttemptReport& own, const Progress& progress)
+    {
+        SolveReport again = report_;
+        again.trusted_strain = trusted_strain(context_, Curve::given, context_.options.material.hardening);
+        std::optional<Eigen::Matrix2Xd> given =
+            strict_equilibrium(context_, *solved_, quick(newton_of(context_.options)), again, own, progress);
+        if (given && near_each_other(*given, *solved_)) {
+            report_ = std::move(again);
+            solved_ = std::move(given);
+            return true;
+        }
+        if (given)
+            own.reason = "converged to another blank";
+        report_.newton = std::move(again.newton);
+        return false;
+    }
+
+    bool take_energy(AttemptReport& own)
+    {
+        const bool converged = energy_.ended == Ended::converged;
+        report_.reason = fmt::format(
+            "the virtual-work system was not solved (residual {:.1e} after {} steps); the blank is the one of least energy "
+            "with the thickness held{}",
+            report_.residual, report_.newton.size(), converged ? "" : ", itself not fully converged");
+        own.reason = converged ? "converged" : "not fully converged";
+        solved_ = std::move(energy_.position);
+        return true;
+    }
+
+    const SolveContext& context_;
+    Sheet sheet_;
+    VirtualWork work_;
+    SolveReport& report_;
+    const std::string& obstacle_;
+    EnergyResult energy_;
+    std::optional<Eigen::Matrix2Xd> solved_;
+};
 
 } // namespace
 
@@ -255,24 +308,35 @@ Eigen::Matrix2Xd solve_at_once(const SolveContext& context, Eigen::Matrix2Xd X, 
 {
     const FlattenOptions& options = context.options;
     report.trusted_strain = trusted_strain(context, Curve::given, options.material.hardening);
-    X = energy_stage(context, Curve::continued, std::move(X), first_try, options.most_energy_steps, report,
-                     progress.part(0, 0.2))
-            .position;
-    if (context.external.travelling.size() > 0) {
-        Eigen::Matrix2Xd placed = X;
-        place(context, placed);
-        context.external.stuck = stuck_places(context.part, context.element, context.external, placed);
-    }
-    if (std::optional<Eigen::Matrix2Xd> solved =
-            strict_equilibrium(context, X, quick(newton_of(options)), report, progress.part(0.2, 0.4)))
-        return std::move(*solved);
-    X = energy_stage(context, Curve::continued, std::move(X), rough, options.most_energy_steps, report,
-                     progress.part(0.4, 0.45))
-            .position;
+    std::optional<Eigen::Matrix2Xd> solved;
     std::string obstacle;
-    if (std::optional<Eigen::Matrix2Xd> solved = as_asked_for(context, X, report, obstacle, progress.part(0.45, 0.6)))
-        return std::move(*solved);
-    return continued(context, std::move(X), report, obstacle, progress.part(0.6, 1));
+    const auto at_once = [&](AttemptReport& own) {
+        X = energy_stage(context, Curve::continued, std::move(X), first_try, options.most_energy_steps, report,
+                         progress.part(0, 0.2))
+                .position;
+        if (context.external.travelling.size() > 0) {
+            Eigen::Matrix2Xd placed = X;
+            place(context, placed);
+            context.external.stuck = stuck_places(context.part, context.element, context.external, placed);
+        }
+        solved = strict_equilibrium(context, X, quick(newton_of(options)), report, own, progress.part(0.2, 0.4));
+        return solved.has_value();
+    };
+    const auto from_its_energy = [&](AttemptReport& own) {
+        X = energy_stage(context, Curve::continued, std::move(X), rough, options.most_energy_steps, report,
+                         progress.part(0.4, 0.45))
+                .position;
+        solved = as_asked_for(context, X, report, obstacle, own, progress.part(0.45, 0.6));
+        return solved.has_value();
+    };
+    const auto continued = [&](AttemptReport& own) {
+        solved = ContinuedSolve(context, std::move(X), report, obstacle).solve(own, progress.part(0.6, 1));
+        return true;
+    };
+    report.attempts = try_in_order({{"hardening curve as given", {}, at_once},
+                                    {"hardening curve as given, from its own energy stage", {}, from_its_energy},
+                                    {"hardening curve continued from the uniform strain", {}, continued}});
+    return std::move(*solved);
 }
 
 } // namespace spia
