@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/coarsen.h"
 #include "engine/nurbs/correct_parameters.h"
@@ -159,6 +160,160 @@ FitShortfall shortfall_of(const NurbsSurface& surface, const Judgement& judgemen
                           out_of_points ? FitShortfall::Reason::control_points : FitShortfall::Reason::data);
 }
 
+/// The best surface so far, and the ways to a better one.
+class FitSearch {
+public:
+    FitSearch(const FitSource& source, const TriMesh& mesh, const FitOptions& options, const Progress& progress)
+        : source_(source), mesh_(mesh), options_(options), progress_(progress),
+          judge_(mesh, options, progress.part(0, 0))
+    {
+        if (corrected())
+            projection_.emplace(mesh);
+        report_.tolerance = options.tolerance;
+    }
+
+    bool corrected() const { return options_.parameters == FitParameters::corrected; }
+    bool within() const { return best_->judgement.within; }
+
+    /// Spans halved where the surface is too far from the part, and a few times more where it folds.
+    bool halve_spans(AttemptReport& own)
+    {
+        constexpr int most_rounds_for_folds = 3; // once it is near enough
+        progress_.checkpoint(0, "fitting the border");
+        SpanBorders borders = first_spans();
+        for (int round = 1, folded_rounds = 0;; ++round) {
+            const Progress here = progress_.part(1 - std::pow(0.85, round - 1), 1 - std::pow(0.85, round));
+            here.checkpoint(0, fmt::format("fitting {} x {} spans", borders.u.size() - 1, borders.v.size() - 1));
+            Attempt now = fitted(borders, here.part(0, 0.2));
+            Judgement judgement = judge_.judge(now.surface, false, here.part(0.2, 1));
+            report_.rounds = round;
+            Halving halve;
+            if (!judgement.missing.empty() && !(judgement.within && ++folded_rounds > most_rounds_for_folds))
+                halve =
+                    choose(refinement_indicators(now.surface, judgement.missing, now.points, now.along_u, now.along_v),
+                           now, source_, options_);
+            out_of_points_ = halve.out_of_points;
+            if (better(judgement))
+                take(now, std::move(judgement));
+            if (halve.count == 0)
+                break;
+            borders = {halved(borders.u, halve.u), halved(borders.v, halve.v)};
+        }
+        own.reason = outcome();
+        return true;
+    }
+
+    /// Fewer spans of those that are proposed, until there are none.
+    template <class Proposals> bool take_fewer(Proposals proposals, const char* what, AttemptReport& own)
+    {
+        int tried = 0, taken = 0;
+        while (const std::optional<SpanBorders> fewer = proposals.next(best_->surface, progress_.part(0.9, 0.9))) {
+            progress_.checkpoint(0.9, fmt::format("{} {} x {} spans", what, fewer->u.size() - 1, fewer->v.size() - 1));
+            Attempt now = fitted(*fewer, progress_.part(0.9, 0.9));
+            Judgement judgement = judge_.judge(now.surface, false, progress_.part(0.9, 0.95));
+            const bool good =
+                judgement.within && judgement.deviation.turned.size() <= best_->judgement.deviation.turned.size();
+            proposals.tried(good);
+            ++tried;
+            taken += good;
+            if (good)
+                take(now, std::move(judgement));
+        }
+        own.reason = taken > 0 ? fmt::format("{}, by {} of {}", outcome(), taken, counted(tried, "trial", "trials"))
+                               : fmt::format("none of {} was as good", counted(tried, "trial", "trials"));
+        return taken > 0;
+    }
+
+    /// The surface through the nodes of a grid, which is judged as exactly as the best one now.
+    bool take_interpolation(AttemptReport& own)
+    {
+        best_->judgement = judge_.judge(best_->surface, true, progress_.part(0.9, 0.95));
+        std::optional<NurbsSurface> through = through_all(source_, options_);
+        if (!through) {
+            own.reason = "no nodes of a grid, or too many";
+            return false;
+        }
+        Judgement judgement = judge_.judge(*through, true, progress_.part(0.95, 1));
+        own.reason = "farther from the part";
+        if (!better(judgement))
+            return false;
+        best_ = Best{std::move(*through), source_.lines_u, source_.lines_v, std::move(judgement)};
+        own.reason = outcome();
+        return true;
+    }
+
+    FitResult result(std::vector<AttemptReport> attempts)
+    {
+        FitResult result;
+        result.report = std::move(report_);
+        result.report.attempts = std::move(attempts);
+        result.report.reached = within();
+        if (!result.report.reached)
+            result.report.shortfall = shortfall_of(best_->surface, best_->judgement, mesh_, options_, out_of_points_);
+        result.surface = std::move(best_->surface);
+        result.u = std::move(best_->u);
+        result.v = std::move(best_->v);
+        result.deviation = std::move(best_->judgement.deviation);
+        result.report.knots_u = result.surface.count_u - result.surface.degree_u - 1;
+        result.report.knots_v = result.surface.count_v - result.surface.degree_v - 1;
+        return result;
+    }
+
+private:
+    struct Best {
+        NurbsSurface surface;
+        std::vector<double> u, v;
+        Judgement judgement;
+    };
+
+    SpanBorders first_spans() const
+    {
+        // Points that slide need fewer knots than the border has where they stay.
+        if (corrected())
+            return {first_borders(options_.ends), first_borders(options_.ends)};
+        return {borders_of_sides(source_, options_, true), borders_of_sides(source_, options_, false)};
+    }
+
+    Attempt fitted(const SpanBorders& borders, const Progress& part) const
+    {
+        Attempt result = attempt(source_, options_, borders.u, borders.v, part);
+        if (projection_)
+            correct_parameters(result, *projection_, part);
+        return result;
+    }
+
+    bool better(const Judgement& now) const
+    {
+        if (!best_ || now.within != best_->judgement.within)
+            return !best_ || now.within;
+        // More knots than the tolerance needs are worth it only where they take every fold away.
+        return now.within ? now.deviation.turned.empty() && !best_->judgement.deviation.turned.empty()
+                          : now.deviation.max() < best_->judgement.deviation.max();
+    }
+
+    void take(Attempt& now, Judgement judgement)
+    {
+        best_ = Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
+    }
+
+    std::string outcome() const
+    {
+        return fmt::format("{} the tolerance{} with {} x {} control points", within() ? "within" : "beyond",
+                           best_->judgement.deviation.turned.empty() ? "" : ", folded,", best_->surface.count_u,
+                           best_->surface.count_v);
+    }
+
+    const FitSource& source_;
+    const TriMesh& mesh_;
+    const FitOptions& options_;
+    const Progress& progress_;
+    FitJudge judge_;
+    std::optional<FootPointProjection> projection_; ///< where parameters are corrected
+    std::optional<Best> best_;
+    FitReport report_;
+    bool out_of_points_ = false;
+};
+
 } // namespace
 
 FitSource source_of(const QuadGrid& lifted)
@@ -188,100 +343,25 @@ FitSource source_of(const QuadGrid& lifted)
 FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& options, const Progress& progress)
 {
     require_in_range(source, options);
-    const FitJudge judge(mesh, options, progress.part(0, 0));
-    progress.checkpoint(0, "fitting the border");
-    // Points that slide need fewer knots than the border has where they stay.
-    const bool corrected = options.parameters == FitParameters::corrected;
-    std::vector<double> borders_u = corrected ? first_borders(options.ends) : borders_of_sides(source, options, true);
-    std::vector<double> borders_v = corrected ? first_borders(options.ends) : borders_of_sides(source, options, false);
-
-    std::optional<FootPointProjection> projection;
-    if (corrected)
-        projection.emplace(mesh);
-    const auto fitted = [&](const SpanBorders& borders, const Progress& part) {
-        Attempt result = attempt(source, options, borders.u, borders.v, part);
-        if (projection)
-            correct_parameters(result, *projection, part);
-        return result;
-    };
-
-    struct Best {
-        NurbsSurface surface;
-        std::vector<double> u, v;
-        Judgement judgement;
-    };
-    std::optional<Best> best;
-    const auto better = [&](const Judgement& now) {
-        if (!best || now.within != best->judgement.within)
-            return !best || now.within;
-        // More knots than the tolerance needs are worth it only where they take every fold away.
-        return now.within ? now.deviation.turned.empty() && !best->judgement.deviation.turned.empty()
-                          : now.deviation.max() < best->judgement.deviation.max();
-    };
-    FitResult result;
-    result.report.tolerance = options.tolerance;
-    bool out_of_points = false;
-    constexpr int most_rounds_for_folds = 3; // once it is near enough
-    for (int round = 1, folded_rounds = 0;; ++round) {
-        const Progress here = progress.part(1 - std::pow(0.85, round - 1), 1 - std::pow(0.85, round));
-        here.checkpoint(0, fmt::format("fitting {} x {} spans", borders_u.size() - 1, borders_v.size() - 1));
-        Attempt now = fitted({borders_u, borders_v}, here.part(0, 0.2));
-        Judgement judgement = judge.judge(now.surface, false, here.part(0.2, 1));
-        result.report.rounds = round;
-        Halving halve;
-        if (!judgement.missing.empty() && !(judgement.within && ++folded_rounds > most_rounds_for_folds))
-            halve = choose(refinement_indicators(now.surface, judgement.missing, now.points, now.along_u, now.along_v),
-                           now, source, options);
-        out_of_points = halve.out_of_points;
-        if (better(judgement))
-            best =
-                Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
-        if (halve.count == 0)
-            break;
-        borders_u = halved(borders_u, halve.u);
-        borders_v = halved(borders_v, halve.v);
-    }
-    // Of those that are proposed until there are none.
-    const auto take_fewer = [&](auto&& proposals, const char* what) {
-        while (best->judgement.within) {
-            const std::optional<SpanBorders> fewer = proposals.next(best->surface, progress.part(0.9, 0.9));
-            if (!fewer)
-                break;
-            progress.checkpoint(0.9, fmt::format("{} {} x {} spans", what, fewer->u.size() - 1, fewer->v.size() - 1));
-            Attempt now = fitted(*fewer, progress.part(0.9, 0.9));
-            Judgement judgement = judge.judge(now.surface, false, progress.part(0.9, 0.95));
-            const bool good =
-                judgement.within && judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
-            proposals.tried(good);
-            if (good)
-                best = Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(),
-                            std::move(judgement)};
-        }
-    };
+    FitSearch search(source, mesh, options, progress);
+    const auto within = [&] { return search.within(); };
+    const auto go_on = [] { return false; };
     // Halving gives more than is needed: where two halves are far better than asked for, they are
     // joined again. Spans of even change can be fewer than halved ones.
-    take_fewer(SpanMerging(mesh, options), "joining to");
-    take_fewer(KnotEquidistribution(source, options), "evening");
-    if (corrected)
-        take_fewer(KnotRemoval(options), "sparing to");
-    if (!best->judgement.within) {
-        best->judgement = judge.judge(best->surface, true, progress.part(0.9, 0.95));
-        if (std::optional<NurbsSurface> through = through_all(source, options)) {
-            Judgement judgement = judge.judge(*through, true, progress.part(0.95, 1));
-            if (better(judgement))
-                best = Best{std::move(*through), source.lines_u, source.lines_v, std::move(judgement)};
-        }
-    }
-    result.report.reached = best->judgement.within;
-    if (!result.report.reached)
-        result.report.shortfall = shortfall_of(best->surface, best->judgement, mesh, options, out_of_points);
-    result.surface = std::move(best->surface);
-    result.u = std::move(best->u);
-    result.v = std::move(best->v);
-    result.deviation = std::move(best->judgement.deviation);
-    result.report.knots_u = result.surface.count_u - result.surface.degree_u - 1;
-    result.report.knots_v = result.surface.count_v - result.surface.degree_v - 1;
-    return result;
+    const auto halve = [&](AttemptReport& own) { return search.halve_spans(own); };
+    const auto merge = [&](AttemptReport& own) {
+        return search.take_fewer(SpanMerging(mesh, options), "joining to", own);
+    };
+    const auto equidistribute = [&](AttemptReport& own) {
+        return search.take_fewer(KnotEquidistribution(source, options), "evening", own);
+    };
+    const auto remove = [&](AttemptReport& own) { return search.take_fewer(KnotRemoval(options), "sparing to", own); };
+    const auto interpolate = [&](AttemptReport& own) { return search.take_interpolation(own); };
+    return search.result(try_in_order({{"spans halved", {}, halve, go_on},
+                                       {"spans merged", within, merge, go_on},
+                                       {"knots equidistributed", within, equidistribute, go_on},
+                                       {"knots removed", [&] { return within() && search.corrected(); }, remove, go_on},
+                                       {"nodes interpolated", [&] { return !within(); }, interpolate, go_on}}));
 }
 
 } // namespace spia

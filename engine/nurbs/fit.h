@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/coons/quad_grid.h"
+#include "engine/core/attempts.h"
 #include "engine/core/progress.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/curve_ends.h"
@@ -64,6 +65,7 @@ struct FitReport {
     int rounds = 0;               ///< fits that were measured
     int knots_u = 0, knots_v = 0; ///< inserted: inner knots
     FitShortfall shortfall;
+    std::vector<AttemptReport> attempts = {}; ///< how it was found
 };
 
 struct FitResult {

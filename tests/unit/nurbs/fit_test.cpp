@@ -1,7 +1,9 @@
 #include "engine/nurbs/fit.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <oneapi/tbb/global_control.h>
@@ -92,6 +94,14 @@ TEST(Fit, KnotsAreDyadicAndOnlyWhereTheyAreNeeded)
     for (const double border : span_borders(narrow.surface.knots_u, 3))
         (std::abs(border - 0.5) < 0.25 ? near : far) += 1;
     EXPECT_GT(near, far) << "even spans have as many outside";
+    const std::vector<AttemptReport>& tried = narrow.report.attempts;
+    ASSERT_EQ(tried.size(), 3u);
+    EXPECT_EQ(tried[0].name, "spans halved");
+    EXPECT_EQ(tried[2].name, "knots equidistributed");
+    const auto winner = std::find_if(tried.begin(), tried.end(), [](const AttemptReport& each) { return each.won; });
+    ASSERT_NE(winner, tried.end());
+    const std::string size = fmt::format("{} x {} control points", narrow.surface.count_u, narrow.surface.count_v);
+    EXPECT_NE(winner->reason.find("within the tolerance with " + size), std::string::npos) << winner->reason;
 }
 
 TEST(Fit, KnotsComeInTheDirectionThatLacksThem)
@@ -212,6 +222,11 @@ TEST(Fit, DataOfAFixedGridRunOutBeforeTheSystemIsSingular)
         interpolate(surfaces::grid(20, 20, bump.place), {.parameters = InterpolateOptions::Parameters::uniform})
             .surface;
     EXPECT_LE(result.deviation.max(), 1.001 * deviation(through, meshed.mesh).max());
+    const std::vector<AttemptReport>& tried = result.report.attempts;
+    ASSERT_EQ(tried.size(), 2u) << "a surface that is beyond the tolerance is not coarsened";
+    EXPECT_EQ(tried[1].name, "nodes interpolated");
+    EXPECT_EQ(tried[1].won, result.surface.control == through.control);
+    EXPECT_NE(tried[0].won, tried[1].won);
 }
 
 TEST(Fit, CorrectedParametersNeedFewerKnotsWhereTheParametersRunUnevenly)
