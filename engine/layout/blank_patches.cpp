@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <fmt/core.h>
 #include <limits>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -15,48 +17,50 @@ namespace spia {
 
 namespace {
 
-/// Ways to divide a blank, in turn.
-struct Ways {
-    std::vector<LayoutOptions> layout;
-    size_t dividing_all = 0; ///< from here on every face is divided: only where a fold is in the
-                             ///< way
+/// A way to divide a blank.
+struct Division {
+    std::string name;
+    LayoutOptions layout;
 };
 
 /// As few patches as there can be, then more of them with better corners; each along the edges of
-/// the part, where it has some, and without; along flatter edges where these are not enough.
-Ways ways_to_divide(const TriMesh& part, const LayoutOptions& layout)
+/// the part, where it has some, and without; along flatter edges where these are not enough; at
+/// last with every face divided.
+std::vector<Division> divisions(const TriMesh& part, const LayoutOptions& layout)
 {
     constexpr double flat_deg = 20; // flatter ones are bends that a smooth surface follows
     LayoutOptions plain = layout, flat = layout;
     plain.edge_deg = 180;
     flat.edge_deg = std::min(layout.edge_deg, flat_deg);
     const int edges = edge_count(part, layout), flat_edges = layout.edge_deg < 180 ? edge_count(part, flat) : 0;
-    Ways ways;
-    const auto add = [&](const LayoutOptions& from, bool layers, bool split, double corner, double closer) {
-        LayoutOptions& way = ways.layout.emplace_back(from);
-        way.layers = layers;
-        way.split = split;
-        way.corner_deg *= corner;
-        way.spacing *= closer;
+    std::vector<Division> result;
+    const auto add = [&](std::string name, const LayoutOptions& from, bool layers, bool split, double corner,
+                         double closer) {
+        result.push_back({std::move(name), from});
+        LayoutOptions& own = result.back().layout;
+        own.layers = layers;
+        own.split = split;
+        own.corner_deg *= corner;
+        own.spacing *= closer;
     };
-    const auto add_both = [&](bool layers, double closer) {
+    const auto add_both = [&](const std::string& name, bool layers, double closer) {
         if (edges > 0)
-            add(layout, layers, false, 1, closer);
-        add(plain, layers, false, 1, closer);
+            add(name + " along the edges", layout, layers, false, 1, closer);
+        add(name, plain, layers, false, 1, closer);
     };
-    add_both(false, 1);
-    add_both(true, 1);
-    for (const bool layers : {false, true})
-        if (flat_edges > edges)
-            add(flat, layers, false, 1, 1);
-    add_both(true, 0.5);
-    ways.dividing_all = ways.layout.size();
-    add(plain, false, true, 1, 1);
-    add(plain, false, true, 1, 0.5); // other vertices on the border, where a face has a corner
-                                     // without room for cells
-    add(plain, false, true, 1.5, 0.5);
-    add(plain, true, true, 1, 1);
-    return ways;
+    add_both("few patches", false, 1);
+    add_both("layers", true, 1);
+    if (flat_edges > edges) {
+        add("few patches along flatter edges", flat, false, false, 1, 1);
+        add("layers along flatter edges", flat, true, false, 1, 1);
+    }
+    add_both("layers of closer vertices", true, 0.5);
+    add("every face divided", plain, false, true, 1, 1);
+    // other vertices on the border, where a face has a corner without room for cells
+    add("every face divided, closer vertices", plain, false, true, 1, 0.5);
+    add("every face divided, closer vertices, fewer corners", plain, false, true, 1.5, 0.5);
+    add("layers, every face divided", plain, true, true, 1, 1);
+    return result;
 }
 
 /// What a fit is worth: no fold, then the tolerance, then few control points, or to be near.
@@ -89,44 +93,98 @@ bool same(const Layout& a, const Layout& b)
                                             });
 }
 
+/// What a fit came to, in words.
+std::string describe(const Worth& worth)
+{
+    return !worth.suited    ? "not proved to have no fold"
+           : !worth.reached ? "beyond the tolerance"
+                            : fmt::format("within the tolerance with {} control points", worth.control_points);
+}
+
+/// The divisions that were tried so far, and the best fit of them.
+class DivisionSearch {
+public:
+    DivisionSearch(const TriMesh& part, const Blank& blank, const PatchesFitOptions& options)
+        : part_(part), blank_(blank), options_(options)
+    {
+    }
+
+    /// Patches along edges are compared with those without, whose fit may cost no more. Where
+    /// patches have no fold but stay beyond the tolerance, what lacks is control points, or an edge
+    /// is in the way whatever the patches: dividing every face does not help.
+    bool worth_trying(size_t k, const Division& division) const
+    {
+        return compares(k) || !(worth_.all() || (worth_.suited && division.layout.split));
+    }
+
+    /// @returns whether it is the best so far
+    bool try_division(size_t k, const Division& division, AttemptReport& own, const Progress& progress)
+    {
+        try {
+            Layout divided = make_layout(part_, blank_, division.layout, progress.part(0, 0.1));
+            if (k > 0 && same(divided, last_)) {
+                own.reason = "the same patches as before";
+                return false;
+            }
+            last_ = divided;
+            PatchesFitOptions fitting = options_;
+            if (compares(k))
+                fitting.max_control_points = std::min(options_.max_control_points, worth_.control_points);
+            PatchesFit fit = fit_patches(part_, blank_, divided, fitting, progress.part(0.1, 1));
+            const Worth now = worth_of(fit, progress.part(1, 1));
+            own.within = std::move(fit.attempts);
+            own.reason = describe(now);
+            if (best_ && !now.better_than(worth_))
+                return false;
+            best_ = std::move(fit);
+            worth_ = now;
+            return true;
+        } catch (const InputError& error) {
+            own.reason = error.what();
+            if (!first_ || k == 1) // that of a way without edges, where the first one has some
+                first_ = error;
+            return false;
+        }
+    }
+
+    PatchesFit best()
+    {
+        if (!best_)
+            throw *first_;
+        return std::move(*best_);
+    }
+
+private:
+    bool compares(size_t k) const { return worth_.all() && best_->layout.edges > 0 && k == 1; }
+
+    const TriMesh& part_;
+    const Blank& blank_;
+    const PatchesFitOptions& options_;
+    std::optional<PatchesFit> best_;
+    std::optional<InputError> first_;
+    Worth worth_; ///< of the best
+    Layout last_;
+};
+
 PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
                         const PatchesFitOptions& options, const Progress& progress)
 {
     progress.checkpoint(0, "dividing the blank into patches");
-    std::optional<PatchesFit> best;
-    std::optional<InputError> first;
-    Worth worth;
-    Layout last;
-    const Ways ways = ways_to_divide(part, layout);
-    const size_t count = ways.layout.size();
-    for (size_t k = 0; k < count; ++k) {
-        // Patches along edges are compared with those without, whose fit may cost no more.
-        const bool compare = worth.all() && best->layout.edges > 0 && k == 1;
-        if ((worth.all() && !compare) || (worth.suited && k >= ways.dividing_all))
-            break; // what lacks then is control points, or an edge is in the way whatever the
-                   // patches
-        try {
-            const Progress here = progress.part(double(k) / double(count), double(k + 1) / double(count));
-            Layout divided = make_layout(part, blank, ways.layout[k], here.part(0, 0.1));
-            if (k > 0 && same(divided, last))
-                continue; // this way makes no difference
-            last = divided;
-            PatchesFitOptions fitting = options;
-            if (compare)
-                fitting.max_control_points = std::min(options.max_control_points, worth.control_points);
-            PatchesFit fit = fit_patches(part, blank, divided, fitting, here.part(0.1, 1));
-            if (const Worth now = worth_of(fit, here.part(1, 1)); !best || now.better_than(worth)) {
-                best = std::move(fit);
-                worth = now;
-            }
-        } catch (const InputError& error) {
-            if (!first || k == 1) // that of a way without edges, where the first one has some
-                first = error;
-        }
-    }
-    if (!best)
-        throw *first;
-    return std::move(*best);
+    const std::vector<Division> division = divisions(part, layout);
+    const double count = double(division.size());
+    DivisionSearch search(part, blank, options);
+    std::vector<PlannedAttempt> attempts;
+    for (size_t k = 0; k < division.size(); ++k)
+        attempts.push_back({division[k].name, [&, k] { return search.worth_trying(k, division[k]); },
+                            [&, k](AttemptReport& own) {
+                                return search.try_division(k, division[k], own,
+                                                           progress.part(double(k) / count, double(k + 1) / count));
+                            },
+                            [] { return false; }}); // the others are not worth_trying() then
+    std::vector<AttemptReport> made = try_in_order(attempts);
+    PatchesFit best = search.best();
+    best.attempts = std::move(made);
+    return best;
 }
 
 } // namespace

@@ -276,6 +276,25 @@ Strips first_strips(const Layout& layout, const Chords& chords, const Sources& s
     }
 }
 
+/// Those that were not found at once.
+std::vector<AttemptReport> searched_grids(const std::vector<std::unique_ptr<const PatchGrid>>& grids)
+{
+    std::vector<AttemptReport> searched;
+    for (size_t p = 0; p < grids.size(); ++p) {
+        const std::vector<AttemptReport>& attempts = grids[p]->grid.attempts;
+        if (attempts.size() == 1 && attempts[0].within.size() == 1)
+            continue;
+        AttemptReport& grid = searched.emplace_back();
+        grid.name = fmt::format("grid of patch {}", p + 1);
+        grid.reason = attempts.back().reason;
+        grid.won = true;
+        grid.within = attempts;
+        for (const AttemptReport& each : attempts)
+            grid.seconds += each.seconds;
+    }
+    return searched;
+}
+
 } // namespace
 
 PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& layout, const PatchesFitOptions& options,
@@ -293,6 +312,7 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
 
     Strips strips = first_strips(layout, chords, sources, options);
     PatchesFit result;
+    result.attempts = searched_grids(grids);
     std::optional<PatchesJudgement> best;
     for (int round = 1; round <= options.most_rounds; ++round) {
         const double from = 0.3 + 0.7 * (1 - std::pow(0.8, round - 1)), to = 0.3 + 0.7 * (1 - std::pow(0.8, round));

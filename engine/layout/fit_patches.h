@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "engine/core/attempts.h"
 #include "engine/layout/patch_grids.h"
 #include "engine/nurbs/fit.h"
 #include "engine/nurbs/multi_patch.h"
@@ -39,6 +40,9 @@ struct PatchesFit {
     std::vector<double> patch_deviation; ///< mm, per patch the largest of both ways
     bool reached = false;                ///< the tolerance, at all samples
     int rounds = 0;
+    /// Of fit_patches() the grids of patches that were not found at once, of blank_patches() the
+    /// layouts, which have these within.
+    std::vector<AttemptReport> attempts = {};
     std::optional<JoinsReport> joins = {};     ///< where they were to be smooth
     std::vector<std::vector<double>> u, v;     ///< per patch the parameters of the data
     std::vector<std::vector<MeshPoint>> place; ///< per patch where on the part the data lie, u

@@ -344,6 +344,7 @@ void make_patches(Session& session, const Progress& progress)
     stage.fit->tolerance = options.tolerance;
     stage.fit->reached = fitted->reached;
     stage.fit->rounds = fitted->rounds;
+    stage.fit->attempts = fitted->attempts;
     if (!fitted->reached) {
         FitShortfall& why = stage.fit->shortfall;
         const bool out = fitted->surface_to_mesh.max >= fitted->mesh_to_surface.max;

@@ -286,6 +286,9 @@ TEST(Edges, ControlPointsThatAreNotEnoughGoToTheFarthestPatches)
         const PatchesFit fit = blank_patches(fold.part, fold.blank, across, options);
         EXPECT_FALSE(fit.reached);
         EXPECT_LE(control_points(fit), most);
+        EXPECT_GT(fit.attempts.size(), 1u);
+        EXPECT_EQ(std::count_if(fit.attempts.begin(), fit.attempts.end(), [](const auto& each) { return each.won; }),
+                  1);
         EXPECT_LT(fit.deviation_max(), before);
         before = fit.deviation_max();
     }

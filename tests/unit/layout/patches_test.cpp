@@ -193,6 +193,8 @@ TEST(Patches, AreTwoWhereACutDividesASheet)
     EXPECT_EQ(fit.patches.interfaces.size(), 1u);
     EXPECT_TRUE(fit.reached);
     expect_joined(fit, 1);
+    ASSERT_EQ(fit.attempts.size(), 1u) << "few patches are enough";
+    EXPECT_TRUE(fit.attempts[0].won);
     options.cuts = {{options.corners[0], nearest(0, 0)}};
     EXPECT_THROW(make_layout(part, blank, options), InputError); // ends within the sheet
     options.cuts = {{options.corners[0], options.corners[2]}, {options.corners[1], options.corners[3]}};
