@@ -9,6 +9,7 @@
 #include "engine/pipeline/shortcomings.h"
 #include "engine/report/figures/crack_verdict.h"
 #include "engine/report/html/html_text.h"
+#include "engine/report/html/report_attempts.h"
 #include "engine/report/html/report_limits.h"
 #include "engine/report/html/report_tables.h"
 #include "engine/report/text/lengths.h"
@@ -84,7 +85,7 @@ void write_html_report(const std::filesystem::path& file, const Session& session
     if (wanted.assumptions)
         html += assumptions(session, lengths);
     if (wanted.solver)
-        html += solving(session, lengths);
+        html += solving(session, lengths) + attempts_section(session, options.reader);
     if (wanted.repairs)
         html += repairs(*session.part, options.reader);
     html += pictures_html(pictures);

@@ -17,6 +17,7 @@
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/report/figures/figures.h"
+#include "engine/report/json/attempts_json.h"
 #include "engine/report/json/surface_json.h"
 
 namespace spia {
@@ -145,6 +146,7 @@ Json solve_json(const SolveReport& report, const StampingDirection& stamping, bo
             {"resultant_N_N_Nmm", {report.resultant[0], report.resultant[1], report.resultant[2]}},
             {"stamping_direction", {stamping.direction[0], stamping.direction[1], stamping.direction[2]}},
             {"hidden_area_fraction", stamping.hidden_area_fraction},
+            {"attempts", attempts_json(report.attempts)},
             {"energy_steps", steps_json(report.energy)},
             {"newton_steps", steps_json(report.newton)}};
 }
@@ -344,7 +346,8 @@ Json grid_json(const Session& session)
             {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},
             {"worst_cell", grid.planar.column_and_row(grid.quality.worst_cell)},
             {"corners", corners},
-            {"filled_holes", grid.filled->holes}};
+            {"filled_holes", grid.filled->holes},
+            {"attempts", attempts_json(grid.attempts)}};
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "engine/report/figures/figures.h"
+#include "engine/report/json/attempts_json.h"
 
 namespace spia {
 namespace {
@@ -38,7 +39,8 @@ Json fit_json(const FitReport& fit, const PartFile& part)
                  {"reached", fit.reached},
                  {"rounds", fit.rounds},
                  {"knots_inserted_u", fit.knots_u},
-                 {"knots_inserted_v", fit.knots_v}};
+                 {"knots_inserted_v", fit.knots_v},
+                 {"attempts", attempts_json(fit.attempts)}};
     if (fit.reached)
         return json;
     const FitShortfall& shortfall = fit.shortfall;

@@ -93,6 +93,33 @@ TEST(HtmlReport, IsOneWholeFileWithTheFiguresOfTheSession)
     EXPECT_EQ(html.find("class=\"note\"", caution + 1), std::string::npos) << "nothing else to mind";
 }
 
+TEST(HtmlReport, TellsWhatWasTried)
+{
+    const ScratchFolder folder;
+    Session session = session_of(dome, Stage::grid);
+    GridStage grid = *session.grid;
+    grid.result.attempts = {{"first <way>", "3 cells fold", 0.25},
+                            {"second way", "sound", 1.5, true, {{"of its own", "0.5 mm are left", 1, true, {}}}}};
+    session.grid = std::make_shared<GridStage>(grid);
+    const std::string html = report(folder / "r.html", session);
+    EXPECT_EQ(unbalanced(html), "");
+    const size_t at = html.find("<h2>Attempts</h2>");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_NE(html.find("<td>Blank</td>", at), std::string::npos);
+    const size_t first = html.find("<td>Grid</td>", at), second = html.find("<b>Second way</b>", at);
+    EXPECT_LT(first, html.find("First &lt;way&gt;</td>", at));
+    EXPECT_LT(html.find("3 cells fold</td><td>0.25</td>", at), second);
+    EXPECT_LT(second, html.find("<b>Of its own</b>", at));
+    EXPECT_EQ(html.find("<td>Surface</td>", at), std::string::npos);
+    ReportOptions options;
+    options.reader.lengths = LengthUnit::inch;
+    write_html_report(folder / "r.html", session, {}, options, {});
+    EXPECT_NE(content_of(folder / "r.html").find("0.0197 in are left"), std::string::npos);
+    options.tables.solver = false;
+    write_html_report(folder / "r.html", session, {}, options, {});
+    EXPECT_EQ(content_of(folder / "r.html").find("Attempts"), std::string::npos);
+}
+
 TEST(HtmlReport, ShowsTheFormingLimitsWithTheStrainDiagram)
 {
     const ScratchFolder folder;
