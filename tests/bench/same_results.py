@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares what two builds make of the same parts, byte for byte: figures, tables, exports and messages.
 
-  python3 tests/bench/same_results.py OLD/spia NEW/spia [PART...] [--only NAME] [--jobs N] [--limit S] [--keep DIR]
+  python3 tests/bench/same_results.py OLD/spia NEW/spia [PART...] [--only NAME] [--added KEY] [--jobs N] [--limit S] [--keep DIR]
 
 PART: files; default every sample in assets/parts and every file of ../shared/data. Each of the ways below is run on each of
 them by both builds in folders of the same names, so that no path differs; times are left out of the figures and the messages.
@@ -51,13 +51,13 @@ def ways(part):
     yield "unfold", ["unfold", str(part), "--auto", "--out", "out", "--json", "out/figures.json"]
 
 
-def timeless(value):
+def timeless(value, added):
     if isinstance(value, dict):
-        return {k: timeless(v) for k, v in value.items() if not SECONDS.search(k)}
-    return [timeless(v) for v in value] if isinstance(value, list) else value
+        return {k: timeless(v, added) for k, v in value.items() if not SECONDS.search(k) and k not in added}
+    return [timeless(v, added) for v in value] if isinstance(value, list) else value
 
 
-def run(program, arguments, folder, limit):
+def run(program, arguments, folder, limit, added=()):
     folder.mkdir(parents=True)
     environment = {**os.environ, "SOURCE_DATE_EPOCH": "0"}
     try:
@@ -68,7 +68,7 @@ def run(program, arguments, folder, limit):
         return None
     (folder / "said.txt").write_text(f"exit {ended}\n" + TIME.sub("TIME", said))
     for figures in folder.rglob("figures.json"):
-        figures.write_text(json.dumps(timeless(json.loads(figures.read_text())), indent=1))
+        figures.write_text(json.dumps(timeless(json.loads(figures.read_text()), added), indent=1))
     for states in folder.rglob("*.cbor"):
         states.write_bytes(CBOR_SECONDS.sub(b"seconds", states.read_bytes()[:-4]))  # and without its checksum
     return ended
@@ -86,7 +86,7 @@ def differences(old, new):
 
 def compare(part, way, arguments, options, folder):
     here = folder / f"{part.stem}{part.suffix.replace('.', '_')}" / way
-    ends = [run(program, arguments, here / side, options.limit)
+    ends = [run(program, arguments, here / side, options.limit, options.added)
             for side, program in (("old", options.old), ("new", options.new))]
     if None in ends:
         return None, [f"no end within {options.limit} s: " + " and ".join(
@@ -103,6 +103,8 @@ def main():
     parser.add_argument("new", type=os.path.abspath)
     parser.add_argument("part", nargs="*", type=pathlib.Path)
     parser.add_argument("--only", action="append", help="one of info, run, patches, fit, unfold")
+    parser.add_argument("--added", action="append", default=[], metavar="KEY",
+                        help="of the figures, which only the new build has: left out")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--limit", type=float, default=600, help="seconds for each run; slower ones are named")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for all that was written; default: what differs, in /tmp")

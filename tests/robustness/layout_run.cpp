@@ -61,6 +61,7 @@ LayoutRun run_layout(const shapes::RandomOutline& drawn)
         result.patches = int(fit.patches.patch.size());
         result.split = fit.layout.split;
         result.reached = fit.reached;
+        result.attempts = fit.attempts;
         result.fault = shapes::fault_of_layout(fit.layout, drawn.part, Blank{plane});
         if (result.fault.empty())
             result.fault = fault_of_sides(fit.patches, inner_curves(fit.layout));

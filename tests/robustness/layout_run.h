@@ -9,8 +9,9 @@ namespace spia {
 struct LayoutRun {
     std::string fault; ///< what is wrong with the patches, or why there are none; empty: nothing
     int patches = 0;
-    bool split = false;   ///< every face was divided, see Layout
-    bool reached = false; ///< within the tolerance everywhere
+    bool split = false;                  ///< every face was divided, see Layout
+    bool reached = false;                ///< within the tolerance everywhere
+    std::vector<AttemptReport> attempts; ///< at the patches
 };
 
 /// blank_patches() of a plate with default options, within 1/1000 of its diagonal. Checked without

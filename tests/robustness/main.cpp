@@ -7,7 +7,9 @@
 #include <fmt/core.h>
 #include <map>
 
+#include "engine/core/atomic_file.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/report/json/attempts_json.h"
 #include "tests/robustness/layout_run.h"
 #include "tests/robustness/shape_run.h"
 #include "tests/robustness/unfold_run.h"
@@ -18,6 +20,26 @@
 namespace {
 
 using namespace spia;
+
+/// What was tried for each shape, for tests/bench/attempts.py.
+class Tried {
+public:
+    /// @param stage  solve, grid or fit
+    void add(const std::string& shape, const char* stage, const std::vector<AttemptReport>& attempts)
+    {
+        shapes_.push_back({{"input", shape}, {stage, {{"attempts", attempts_json(attempts)}}}});
+    }
+
+    /// To no file: not at all.
+    void write(const std::filesystem::path& file) const
+    {
+        if (!file.empty())
+            write_atomically(file, shapes_.dump(1) + "\n");
+    }
+
+private:
+    nlohmann::ordered_json shapes_ = nlohmann::ordered_json::array();
+};
 
 struct Row {
     int shapes = 0, blanks = 0, refusals = 0, failures = 0, cut = 0, overlapping = 0, short_of_force = 0;
@@ -96,7 +118,7 @@ int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const
 
 /// A table of grids over outlines and corners drawn at random, 40 of each kind. @returns how many
 /// are not sound, or were refused
-int grid_all(const std::string& only, int each)
+int grid_all(const std::string& only, int each, Tried& tried)
 {
     fmt::print(
         "| kind | outlines | sound | refused as winding too much | not sound | slowest s |\n|---|---|---|---|---|---|\n");
@@ -113,6 +135,7 @@ int grid_all(const std::string& only, int each)
             const shapes::RandomGrid made = shapes::random_grid(drawn);
             slowest =
                 std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
+            tried.add(drawn.name, "grid", made.attempts);
             refused += made.refused;
             faulty += !made.fault.empty();
             if (made.refused || !made.fault.empty())
@@ -128,7 +151,7 @@ int grid_all(const std::string& only, int each)
 
 /// A table of patches around the holes of plates drawn at random. @returns how many have none, or
 /// faulty ones
-int layout_all(int plates)
+int layout_all(int plates, Tried& tried)
 {
     fmt::print("| plate | patches | divided | within the tolerance | seconds | fault |\n|---|---|---|---|---|---|\n");
     int wrong = 0;
@@ -136,6 +159,7 @@ int layout_all(int plates)
         const shapes::RandomOutline drawn = shapes::random_outline(shapes::outline_kinds - 1, number);
         const auto clock = std::chrono::steady_clock::now();
         const LayoutRun run = run_layout(drawn);
+        tried.add(drawn.name, "fit", run.attempts);
         fmt::print("| {} | {} | {} | {} | {:.1f} | {} |\n", drawn.name, run.patches, run.split ? "yes" : "",
                    run.reached ? "yes" : "no",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count(), run.fault);
@@ -154,7 +178,7 @@ int main(int argc, char** argv)
     int triangles = 600;
     std::uint64_t seed = 1;
     std::string only;
-    std::filesystem::path folder;
+    std::filesystem::path folder, attempts;
     bool verbose = false, unfold = false;
     int grids = 0, layouts = 0;
     double edge = 0;
@@ -167,11 +191,14 @@ int main(int argc, char** argv)
     app.add_flag("--unfold", unfold, "the bent parts instead, step by step, beside other methods");
     app.add_option("--grids", grids, "grids over that many outlines of each kind instead, with corners drawn by lot");
     app.add_option("--layouts", layouts, "patches around the holes of that many plates instead, drawn by lot");
+    app.add_option("--attempts", attempts, "JSON file of what was tried for each shape (tests/bench/attempts.py)");
     CLI11_PARSE(app, argc, argv);
-    if (grids > 0)
-        return grid_all(only, grids) == 0 ? 0 : 1;
-    if (layouts > 0)
-        return layout_all(layouts) == 0 ? 0 : 1;
+    Tried tried;
+    if (grids > 0 || layouts > 0) {
+        const int wrong = grids > 0 ? grid_all(only, grids, tried) : layout_all(layouts, tried);
+        tried.write(attempts);
+        return wrong == 0 ? 0 : 1;
+    }
 
     FlattenOptions flattening;
     flattening.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
@@ -184,6 +211,7 @@ int main(int argc, char** argv)
     const auto take = [&](const std::string& family, const std::string& name, const ShapeRun& run, bool as_expected) {
         if (rows.empty() || rows.back().first != family)
             rows.emplace_back(family, Row{});
+        tried.add(name, "solve", run.attempts);
         count(rows.back().second, run);
         count(all, run);
         wrong += !as_expected;
@@ -218,6 +246,7 @@ int main(int argc, char** argv)
         take("files", file.filename().string(), run, run.end != ShapeRun::End::failure);
     }
 
+    tried.write(attempts);
     fmt::print(
         "\n| {:<22} | shapes | blanks | refusals | failed | cut | strict | continued | relaxed | energy | overlap | part of forces | strain up | slowest s |\n",
         "family");

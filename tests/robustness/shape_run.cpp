@@ -42,6 +42,7 @@ template <class Read> ShapeRun run(const Read& read, const FlattenOptions& flatt
         result.seconds = flat.report.seconds;
         result.system = flat.report.system;
         result.process_share = flat.report.process_share;
+        result.attempts = flat.report.attempts;
         result.most_strain = flat.face.strain_equivalent.maxCoeff();
         result.crossings = int(flat.overlap.crossings.size());
         result.wound = int(flat.overlap.wound.size());

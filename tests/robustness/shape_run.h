@@ -19,9 +19,10 @@ struct ShapeRun {
     double seam_mm = 0; ///< 0: not cut
     double seconds = 0; ///< of flatten()
     SolvedSystem system = SolvedSystem::energy;
-    double process_share = 1;     ///< of the forces that are in the blank
-    double most_strain = 0;       ///< equivalent, over the faces
-    int crossings = 0, wound = 0; ///< of the blank with itself
+    double process_share = 1;            ///< of the forces that are in the blank
+    std::vector<AttemptReport> attempts; ///< at the blank
+    double most_strain = 0;              ///< equivalent, over the faces
+    int crossings = 0, wound = 0;        ///< of the blank with itself
 };
 
 /// Examines, cuts and unfolds a part in memory or from a file, and looks at the blank with other

@@ -95,11 +95,12 @@ RandomGrid random_grid(const RandomOutline& drawn)
     const Blank blank{drawn.part.position.topRows(2)};
     const BlankBoundary boundary = split_boundary(blank, drawn.part, drawn.corner);
     try {
-        return {fault_of(coons_grid(drawn.part, blank, boundary), boundary), false};
+        const GridResult grid = coons_grid(drawn.part, blank, boundary);
+        return {fault_of(grid, boundary), false, grid.attempts};
     } catch (const InputError& error) {
         const std::string why = error.what();
         const bool refused = why.find("winds too much for one four-sided patch") != std::string::npos;
-        return {refused ? "" : why, refused};
+        return {refused ? "" : why, refused, {}};
     }
 }
 

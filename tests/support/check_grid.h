@@ -12,8 +12,9 @@ namespace spia::shapes {
 std::string fault_of(const GridResult& grid, const BlankBoundary& boundary);
 
 struct RandomGrid {
-    std::string fault; ///< as above; also what was thrown, unless
-    bool refused;      ///< the blank was refused as one that winds too much
+    std::string fault = {}; ///< as above; also what was thrown, unless
+    bool refused = false;   ///< the blank was refused as one that winds too much
+    std::vector<AttemptReport> attempts = {};
 };
 
 /// coons_grid() of an outline with default options.
