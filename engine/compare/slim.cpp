@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/line_search.h"
 #include "engine/core/parallel.h"
 #include "engine/forming/solver/energy_stage.h"
 
@@ -64,16 +65,17 @@ FlatMap slim(const TriMesh& part, const IsometricOptions& options, const Progres
                      [&](int f) { reweight(steps.gradient(u, f), metric[size_t(f)], stress[size_t(f)]); });
         steps.factor(metric);
         const Eigen::Matrix2Xd direction = steps.step(stress);
-        double length = std::min(1.0, 0.8 * largest_step(part.triangle, u, direction)), after = before;
-        for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
+        double after = before;
+        const auto take = [&](double length) {
             const Eigen::Matrix2Xd trial = u + length * direction;
             const double energy = steps.energy(trial, symmetric_dirichlet_density);
-            if (energy < before && flipped_triangles(part.triangle, trial) == 0) {
-                u = trial;
-                after = energy;
-                break;
-            }
-        }
+            if (!(energy < before && flipped_triangles(part.triangle, trial) == 0))
+                return false;
+            u = trial;
+            after = energy;
+            return true;
+        };
+        backtrack(std::min(1.0, 0.8 * largest_step(part.triangle, u, direction)), 40, take);
         if (after == before) { // rounding is all that is left
             map.ended = "converged";
             break;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/coons/element_energy.h"
+#include "engine/core/line_search.h"
 #include "engine/core/parallel.h"
 #include "engine/sparse/block_matrix.h"
 #include "engine/sparse/cholesky.h"
@@ -119,15 +120,14 @@ private:
         if (!(slope < 0))
             return false;
         const Eigen::Map<const Eigen::Matrix2Xd> way(step.data(), 2, position_.cols());
-        double length = 1;
-        for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
+        const auto take = [&](double length) {
             const Eigen::Matrix2Xd trial = position_ + length * way;
-            if (energy(trial) <= before + armijo * length * slope) {
-                position_ = trial;
-                return true;
-            }
-        }
-        return false;
+            if (!(energy(trial) <= before + armijo * length * slope))
+                return false;
+            position_ = trial;
+            return true;
+        };
+        return backtrack(1, most_halvings, take) > 0;
     }
 
     void assemble()

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/line_search.h"
 #include "engine/core/parallel.h"
 
 namespace spia {
@@ -174,28 +175,26 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
             }
             return result;
         }
-        double length = std::min(1.0, 0.9 * largest_step(triangle, X, direction));
-        bool decreased = false;
-        for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
+        const auto take = [&](double length) {
             checkpoint();
             const Eigen::Matrix2Xd trial = X + length * direction;
             const double E_trial = total(trial);
-            if (E_trial <= E - 1e-4 * length * decrement) { // Armijo
-                parallel_for(faces, [&](int f) {
-                    const Element& e = element[size_t(f)];
-                    const Svd2 d = svd(inverse_gradient(e, corners(X, triangle.col(f))));
-                    const Eigen::Matrix2d change = length * inverse_gradient(e, corners(direction, triangle.col(f)));
-                    ElementStress& stress = expected[size_t(f)];
-                    stress = expected_stress(sheet.law_of(f).normal(-d.s.array().log().matrix()), d, change, stress);
-                });
-                X = trial;
-                E = E_trial;
-                decreased = true;
-                break;
-            }
-        }
-        result.steps.back().step_length = decreased ? length : 0;
-        if (!decreased) {
+            if (!(E_trial <= E - 1e-4 * length * decrement)) // Armijo
+                return false;
+            parallel_for(faces, [&](int f) {
+                const Element& e = element[size_t(f)];
+                const Svd2 d = svd(inverse_gradient(e, corners(X, triangle.col(f))));
+                const Eigen::Matrix2d change = length * inverse_gradient(e, corners(direction, triangle.col(f)));
+                ElementStress& stress = expected[size_t(f)];
+                stress = expected_stress(sheet.law_of(f).normal(-d.s.array().log().matrix()), d, change, stress);
+            });
+            X = trial;
+            E = E_trial;
+            return true;
+        };
+        result.steps.back().step_length =
+            backtrack(std::min(1.0, 0.9 * largest_step(triangle, X, direction)), 40, take);
+        if (result.steps.back().step_length == 0) {
             result.ended = Ended::stalled;
             return result;
         }

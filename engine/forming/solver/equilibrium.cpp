@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/core/line_search.h"
 #include "engine/core/text.h"
 #include "engine/sparse/gmres.h"
 #include "engine/sparse/lu.h"
@@ -142,18 +143,17 @@ private:
         double least = std::numeric_limits<double>::max();
         for (const NewtonStep& step : steps)
             least = std::min(least, step.residual);
-        double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
-        for (int halving = 0; halving < 10; ++halving, length *= 0.5) {
+        const auto take = [&](double length) {
             here.checkpoint();
             const Eigen::Matrix2Xd trial = X + length * direction;
-            if (descends(R, residual(trial), length, least * yield_force_)) {
-                work_.expect(X, length * direction);
-                X = trial;
-                steps.back().step_length = length;
-                return true;
-            }
-        }
-        return false;
+            if (!descends(R, residual(trial), length, least * yield_force_))
+                return false;
+            work_.expect(X, length * direction);
+            X = trial;
+            return true;
+        };
+        steps.back().step_length = backtrack(std::min(1.0, 0.9 * largest_step(triangle_, X, direction)), 10, take);
+        return steps.back().step_length > 0;
     }
 
     /// Whether a step from R to `then` is one forward. A few triangles with a stress turned round
