@@ -26,7 +26,7 @@ SHELLS_ONLY = ("dynain,", "nastran,", "mapping,")
 DECKS = {".k", ".key", ".dyn", ".bdf", ".nas", ".dat", ".inp", ".msh", ".rad"}
 PARTS = DECKS | {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".step", ".stp", ".igs", ".iges", ".brep"}
 MOST_BYTES = 30e6  # a whole car is for `info` alone
-TIME = re.compile(r"\b\d+(\.\d+)? ?(ms|s|min)\b")
+TIME = re.compile(r" *\b\d+(\.\d+)? ?(ms|s|min)\b")
 SECONDS = re.compile(r"(seconds|peak_memory_mb)$")
 CBOR_SECONDS = re.compile(rb"seconds(\xfb.{8}|\xfa.{4})", re.S)  # a number of 8 or 4 bytes
 
@@ -66,7 +66,7 @@ def run(program, arguments, folder, limit, added=()):
         ended, said = str(done.returncode), done.stdout.decode(errors="replace")
     except subprocess.TimeoutExpired:
         return None
-    (folder / "said.txt").write_text(f"exit {ended}\n" + TIME.sub("TIME", said))
+    (folder / "said.txt").write_text(f"exit {ended}\n" + TIME.sub(" TIME", said))
     for figures in folder.rglob("figures.json"):
         figures.write_text(json.dumps(timeless(json.loads(figures.read_text()), added), indent=1))
     for states in folder.rglob("*.cbor"):
