@@ -3,9 +3,9 @@
 
   python3 tests/bench/attempts.py SPIA [PART...] [--tried FILE...] [--jobs N] [--limit S]
 
-PART: files; default every sample in assets/parts and every part of ../shared/data below 30 MB. Each is run by the program SPIA in
-the ways below, and the traces of its JSON are counted. FILE: what `spia-robustness --attempts FILE` has written of shapes drawn at
-random. An attempt has won if its result was taken, and so was that of the one which it is made within. Prints a table in Markdown.
+PART: files; default, without FILE, every sample in assets/parts and every part of ../shared/data below 30 MB. Each is run by the
+program SPIA in the ways below, and the traces of its JSON are counted. FILE: what `spia-robustness --attempts FILE` has written of
+shapes drawn at random. An attempt has won if its result was taken, and so was that of the one which it is made within. Prints a table in Markdown.
 """
 import argparse
 import collections
@@ -80,9 +80,10 @@ def main():
     parser.add_argument("--limit", type=float, default=600, help="seconds for each run")
     options = parser.parse_args()
     program = options.program.resolve()
-    parts = [p.resolve() for p in options.part] or sorted(
-        p for folder in (ROOT / "assets/parts", (ROOT / "../shared/data").resolve()) for p in folder.rglob("*")
-        if p.suffix.lower() in PARTS and p.stat().st_size <= MOST_BYTES)
+    parts = [p.resolve() for p in options.part]
+    if not parts and not options.tried:
+        parts = sorted(p for folder in (ROOT / "assets/parts", (ROOT / "../shared/data").resolve()) for p in folder.rglob("*")
+                       if p.suffix.lower() in PARTS and p.stat().st_size <= MOST_BYTES)
     table, runs, without = {}, collections.Counter(), []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         jobs = {pool.submit(figures_of, program, part, way, options.limit): (part, way)
@@ -101,7 +102,8 @@ def main():
     for file in options.tried:
         for shape in json.loads(file.read_text()):
             for stage in ("solve", "grid", "fit"):
-                add(table, ("patches" if stage == "fit" else stage, ), shape.get(stage, {}).get("attempts", []), shape["input"])
+                add(table, (f"{'patches' if stage == 'fit' else stage}, {file.stem}",), shape.get(stage, {}).get("attempts", []),
+                    shape["input"])
             runs[file.stem] += 1
     print(f"{', '.join(f'{count} of {way}' for way, count in runs.items())}; without a blank, or too slow: {len(without)}"
           + (f" ({', '.join(sorted(without))})" if without else "") + "\n")
