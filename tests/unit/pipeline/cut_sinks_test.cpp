@@ -3,19 +3,18 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <initializer_list>
 #include <map>
 #include <numbers>
 #include <string>
 
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/run_chain.h"
-#include "engine/pipeline/session.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/profile.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
 namespace {
@@ -30,8 +29,6 @@ constexpr double k = 0.42;
 
 /// What of a sink is in the sheet.
 enum class Cut { none, sink_only, half, on_border, less_than_half, sink_alone, another_hole, bend };
-constexpr Cut cuts[] = {Cut::none,           Cut::sink_only,  Cut::half,         Cut::on_border,
-                        Cut::less_than_half, Cut::sink_alone, Cut::another_hole, Cut::bend};
 
 const char* name(Cut cut)
 {
@@ -112,15 +109,6 @@ double holes_of(const BentSolid& solid)
     return area;
 }
 
-Session solved_with_k(const std::filesystem::path& file)
-{
-    Session session;
-    session.file = file;
-    session.options.k_factor = constant_k(k);
-    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    return completed(run_chain(std::move(session), Stage::read, Stage::solve));
-}
-
 /// mm, how far within the circle of the sink the border of the part is off the hole.
 double off_hole(const BentSolid& solid, const TriMesh& part)
 {
@@ -158,7 +146,7 @@ void expect_hole(const ScratchFolder& folder, const BentSolid& solid, CadForm fo
     SCOPED_TRACE(solid.kind + (form == CadForm::step ? ", STEP" : ", STL"));
     const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
     shapes::write_bent_solid(file, solid, form);
-    const Session session = solved_with_k(file);
+    const Session session = solved_part(file, {}, constant_k(k));
     const PartFile& part = *session.part;
     ASSERT_TRUE(part.solid);
     EXPECT_TRUE(part.doubts.empty()) << part.doubts.front();
@@ -185,37 +173,34 @@ void expect_hole(const ScratchFolder& folder, const BentSolid& solid, CadForm fo
     }
 }
 
-} // namespace
-
-TEST(SunkHoles, ThatAreCutLeaveTheHoleBelowThemWhicheverSkinTheyAreAt)
+/// At either skin of a plate, an L and a U, cut in each of these ways.
+void expect_holes(std::uint64_t seed, bool counterbore, CadForm form, std::initializer_list<Cut> cuts)
 {
     const ScratchFolder folder;
-    std::uint64_t seed = 0;
     for (const int bends : {0, 1, 2})
         for (const bool left : {true, false})
             for (const Cut cut : cuts)
                 if (cut != Cut::bend || bends > 0)
-                    expect_hole(folder, cut_sink(++seed, bends, left, false, cut), CadForm::step);
+                    expect_hole(folder, cut_sink(++seed, bends, left, counterbore, cut), form);
+}
+
+} // namespace
+
+TEST(SunkHoles, ThatAreCutLeaveTheHoleBelowThemWhicheverSkinTheyAreAt)
+{
+    expect_holes(0, false, CadForm::step,
+                 {Cut::none, Cut::sink_only, Cut::half, Cut::on_border, Cut::less_than_half, Cut::sink_alone,
+                  Cut::another_hole, Cut::bend});
 }
 
 TEST(SunkHoles, ThatAreCutLeaveTheHoleBelowThemInMeshesAsWell)
 {
-    const ScratchFolder folder;
-    std::uint64_t seed = 100;
-    for (const int bends : {0, 1, 2})
-        for (const bool left : {true, false})
-            for (const Cut cut : {Cut::sink_only, Cut::half, Cut::on_border, Cut::another_hole})
-                expect_hole(folder, cut_sink(++seed, bends, left, false, cut), CadForm::stl);
+    expect_holes(100, false, CadForm::stl, {Cut::sink_only, Cut::half, Cut::on_border, Cut::another_hole});
 }
 
 TEST(SunkHoles, ThatAreCounterboresAndCutLeaveTheHoleBelowThem)
 {
-    const ScratchFolder folder;
-    std::uint64_t seed = 200;
-    for (const int bends : {0, 1, 2})
-        for (const bool left : {true, false})
-            for (const Cut cut : {Cut::none, Cut::sink_only, Cut::half, Cut::on_border, Cut::less_than_half})
-                expect_hole(folder, cut_sink(++seed, bends, left, true, cut), CadForm::step);
+    expect_holes(200, true, CadForm::step, {Cut::none, Cut::sink_only, Cut::half, Cut::on_border, Cut::less_than_half});
 }
 
 TEST(SunkHoles, ThatAreCutAtBothSkinsAreDoubted)

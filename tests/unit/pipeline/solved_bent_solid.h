@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/run_chain.h"
@@ -11,10 +12,12 @@ namespace spia {
 
 /// A part read by default options and laid flat.
 /// @param thickness  mm; not given: the part's own, or 1 where the file has none
-inline Session solved_part(const std::filesystem::path& file, std::optional<double> thickness = {})
+inline Session solved_part(const std::filesystem::path& file, std::optional<double> thickness = {},
+                           std::optional<KFactor> k = {})
 {
     Session session;
     session.file = file;
+    session.options.k_factor = std::move(k);
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     return completed(run_chain(std::move(session), Stage::read, Stage::solve, {.thickness = thickness}));
 }

@@ -127,15 +127,13 @@ void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
         return;
     const LimitsResult& limits = *document.session.limits;
     const auto faces = [&](Zone zone) { return limits.zones.share[size_t(zone)].faces; };
-    const auto counted = [](int count, const char* one, const char* more) {
-        return count == 1 ? fmt::format("1 face {}", one) : fmt::format("{} faces {}", count, more);
-    };
     std::string text;
     if (const int count = faces(Zone::crack); count > 0)
-        text = fmt::format("{} above the forming limit curve: the sheet cracks there.", counted(count, "is", "are"));
+        text = fmt::format("{} above the forming limit curve: the sheet cracks there.",
+                           counted(count, "face is", "faces are"));
     if (const int count = faces(Zone::excessive_thinning); count > 0)
         text += fmt::format("{}{} the allowed thinning of {:.4g} %.", text.empty() ? "" : " ",
-                            counted(count, "exceeds", "exceed"), 100 * limits.settings.max_thinning);
+                            counted(count, "face exceeds", "faces exceed"), 100 * limits.settings.max_thinning);
     if (text.empty())
         return;
     Doubt doubt{ChainStep::unfold, text};
