@@ -68,7 +68,8 @@ public:
     {
         std::vector<OpenSink> found;
         for (const OpenCounterbore& each : open_counterbores(solid_, normal_, sheet_.thickness)) {
-            const auto has = [&](const SunkHole& hole) { return std::ranges::binary_search(each.wall, hole.face); };
+            const Wall wall{Eigen::Vector3d::Zero(), 0, each.wall};
+            const auto has = [&](const SunkHole& hole) { return is_of(wall, hole); };
             const auto on_outer = [&](int f) { return touches(f, SheetSide::outer); };
             if (std::ranges::none_of(told, has))
                 found.push_back({each.wall.front(), each.place,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -162,8 +163,23 @@ private:
             return ring || n.dot(own) > smooth;
         if (low < -farthest * thickness_)
             return false;
+        if (ring && n.dot(mouth.axis) > flattest)
+            return true; // where the tool ended: the bend hangs over it
         const double same_angle = std::min(unevenness(f, mouth), unevenness(next, mouth));
-        return n.dot(own) > smooth && std::abs((n - own).dot(mouth.axis)) < same_angle;
+        return (n.dot(own) > smooth && std::abs((n - own).dot(mouth.axis)) < same_angle) ||
+               of_one_cylinder(f, next, mouth);
+    }
+
+    /// Low chords of a cylinder lean any way where they end at a bend's skin; their corners do not.
+    /// A triangle of that skin with all corners on the cylinder would lie within the hole.
+    bool of_one_cylinder(int f, int g, const RoundEdge& mouth) const
+    {
+        const double radius = mouth.off_axis(place(solid_.triangle(0, f))).norm();
+        return std::ranges::all_of(std::array{f, g}, [&](int each) {
+            return std::ranges::all_of(solid_.triangle.col(each), [&](int v) {
+                return std::abs(mouth.off_axis(place(v)).norm() - radius) < same_;
+            });
+        });
     }
 
     /// How far chords between circles may be off the angle of their cone: by the height of their

@@ -121,13 +121,16 @@ TopoDS_Shape sunk(TopoDS_Shape shape, const BentSolid& solid, const Profile& pro
     const gp_Pnt at = beside(profile, leg, s, side * t / 2).Translated(gp_Vec(0, sink.centre.y(), 0)),
                  before = at.Translated(in * -t);
     shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.hole, 3 * t).Shape());
+    if (sink.seam)
+        shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.wide, t).Shape());
     if (sink.counterbore)
-        return BRepAlgoAPI_Cut(shape,
-                               BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.wide, t + sink.depth).Shape());
-    const double slope = (sink.wide - sink.hole) / sink.depth; // the cone begins outside
+        return BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(sink.seam ? at : before, gp_Dir(in)), sink.wide,
+                                                               (sink.seam ? 0 : t) + sink.depth)
+                                          .Shape());
+    const double slope = (sink.wide - sink.hole) / sink.depth, above = sink.above > 0 ? sink.above : t;
+    const gp_Ax2 begin(at.Translated(in * -above), gp_Dir(in));
     return BRepAlgoAPI_Cut(
-        shape,
-        BRepPrimAPI_MakeCone(gp_Ax2(before, gp_Dir(in)), sink.wide + slope * t, sink.hole, t + sink.depth).Shape());
+        shape, BRepPrimAPI_MakeCone(begin, sink.wide + slope * above, sink.hole, above + sink.depth).Shape());
 }
 
 const Profile::Piece& piece_at(const Profile& profile, double s)

@@ -34,7 +34,9 @@ struct Sink {
     double depth = 1;                                 ///< mm, from that side to where the hole has
                                                       ///< its radius
     bool counterbore = false;
-    bool left = true; ///< the side at which it is wider
+    bool left = true;  ///< the side at which it is wider
+    double above = 0;  ///< mm, how far outside that side the tool begins; 0: by the thickness
+    bool seam = false; ///< the wall of a counterbore is of two faces, one beyond the side's plane
 };
 
 /// A mark of even depth on the outer side of a bend and of the legs beside it.

@@ -1,6 +1,7 @@
 // Sinks that a border, another hole or a bend cuts, at either skin: what is cut is the hole below.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <initializer_list>
@@ -173,6 +174,31 @@ void expect_hole(const ScratchFolder& folder, const BentSolid& solid, CadForm fo
     }
 }
 
+/// Of a single one that something cuts off: measured, and nothing else said of it.
+void expect_told(const ScratchFolder& folder, const BentSolid& solid)
+{
+    SCOPED_TRACE(solid.kind);
+    shapes::write_bent_solid(folder / "part.step", solid);
+    const PartFile part = read_part(folder / "part.step");
+    const Finding* told = part.doctor.find(Fault::mark);
+    ASSERT_TRUE(told);
+    ASSERT_EQ(told->what.size(), 1u);
+    const Sink& sink = solid.sink.front();
+    EXPECT_TRUE(told->what[0].starts_with(sink.counterbore ? "counterbore" : "countersink")) << told->what[0];
+    double wide = 0, depth = 0, hole = 0;
+    ASSERT_EQ(
+        std::sscanf(told->what[0].c_str(), "%*s %lf mm wide, %lf mm deep, of a hole of %lf", &wide, &depth, &hole), 3)
+        << told->what[0];
+    EXPECT_NEAR(wide, 2 * sink.wide, 1e-3 * sink.wide);
+    EXPECT_NEAR(depth, sink.depth, 2e-3 * solid.thickness);
+    EXPECT_NEAR(hole, 2 * sink.hole, 1e-3 * sink.hole);
+    EXPECT_TRUE(told->what[0].ends_with("cuts it off")) << told->what[0];
+    EXPECT_NE(told->text.find("has the least diameter of each"), std::string::npos) << told->text;
+    for (const std::string& note : part.notes)
+        EXPECT_TRUE(note.find(" open at ") == std::string::npos) << note;
+    EXPECT_FALSE(part.solid->marks.empty());
+}
+
 /// At either skin of a plate, an L and a U, cut in each of these ways.
 void expect_holes(std::uint64_t seed, bool counterbore, CadForm form, std::initializer_list<Cut> cuts)
 {
@@ -201,6 +227,58 @@ TEST(SunkHoles, ThatAreCutLeaveTheHoleBelowThemInMeshesAsWell)
 TEST(SunkHoles, ThatAreCounterboresAndCutLeaveTheHoleBelowThem)
 {
     expect_holes(200, true, CadForm::step, {Cut::none, Cut::sink_only, Cut::half, Cut::on_border, Cut::less_than_half});
+}
+
+TEST(SunkHoles, ThatAreCounterboresAndRunIntoABendAreMeasuredAndToldOnce)
+{
+    // Of their wall, in the hollow of the bend, low chords are left beyond the plane of the skin.
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        shapes::SeededRandom random(seed + 400);
+        BentSolid solid;
+        solid.kind = fmt::format("seed {}", seed);
+        const double t = solid.thickness = random.between(2, 4), inner = t * random.between(1, 2);
+        Sink sink;
+        sink.counterbore = sink.seam = true;
+        sink.left = random.whole(0, 3) > 0;
+        sink.hole = t * random.between(0.7, 1.2);
+        sink.depth = t * random.between(0.35, 0.6);
+        sink.wide = sink.hole + t * random.between(0.7, 1.5);
+        const double within = std::min(0.6 * inner, 0.8 * (sink.wide - sink.hole)) * random.between(0.2, 1);
+        solid.leg = {6 * sink.wide, 4 * sink.wide};
+        solid.width = 5 * sink.wide;
+        solid.bend = {{inner, random.between(1.2, 1.6)}};
+        sink.centre = {solid.leg[0] + within - sink.wide, solid.width / 2};
+        solid.sink = {sink};
+        expect_hole(folder, solid, CadForm::step);
+        expect_told(folder, solid);
+    }
+}
+
+TEST(SunkHoles, ThatAreCountersinksAndEndUnderTheHollowOfABendAreTold)
+{
+    // The tool is no higher than that: its end, not the bend's skin, is over the cone.
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        shapes::SeededRandom random(seed + 500);
+        BentSolid solid;
+        solid.kind = fmt::format("seed {}", seed);
+        const double t = solid.thickness = random.between(2, 4), inner = t * random.between(1, 2);
+        Sink sink;
+        sink.hole = t * random.between(0.7, 1.2);
+        sink.depth = t * random.between(0.6, 0.9);
+        sink.wide = sink.hole + sink.depth * std::tan(random.between(0.6, 0.8));
+        sink.above = inner * random.between(0.06, 0.12);
+        solid.leg = {6 * sink.wide, 4 * sink.wide};
+        solid.width = 5 * sink.wide;
+        solid.bend = {{inner, random.between(1.2, 1.6)}};
+        sink.centre = {solid.leg[0] + 0.4 * inner - sink.wide, solid.width / 2};
+        solid.sink = {sink};
+        if (sink.centre.x() + sink.hole > solid.leg[0])
+            continue; // the hole is in the bend
+        expect_hole(folder, solid, CadForm::step);
+        expect_told(folder, solid);
+    }
 }
 
 TEST(SunkHoles, ThatAreCutAtBothSkinsAreDoubted)
