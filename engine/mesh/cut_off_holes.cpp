@@ -9,6 +9,7 @@
 #include "engine/mesh/cylinder_fit.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/face_neighbours.h"
+#include "engine/mesh/plane_regions.h"
 
 namespace spia {
 namespace {
@@ -56,6 +57,16 @@ bool CutOffHoles::square(const std::vector<int>& wall, const Eigen::Vector3d& ax
         size += normal_.col(f).norm();
     }
     return along <= most * size;
+}
+
+bool CutOffHoles::around(const RoundEdge& circle, int f) const
+{
+    constexpr double chord = 0.5; // of normals, 30 degrees: slivers are off by more than chords are
+    const Eigen::Vector3d n = normal_.col(f);
+    const Eigen::Vector3d out =
+        circle.off_axis(solid_.position(Eigen::all, solid_.triangle.col(f)).rowwise().mean()).normalized();
+    return altitude(solid_, f, n) < wider * sheet_.thickness ||
+           std::abs(n.dot(circle.axis.cross(out))) < chord * n.norm();
 }
 
 SunkHole CutOffHoles::cut_off(const Meeting& meeting, SheetSide skin, const Eigen::Vector3d& inwards) const
@@ -159,7 +170,8 @@ std::vector<SunkHole> CutOffHoles::over_bend(const std::vector<int>& wall) const
         const auto narrower = [&](int v) {
             return circle.off_axis(solid_.position.col(v)).norm() < circle.radius - same * t;
         };
-        if (std::ranges::any_of(vertex, narrower))
+        const auto is_around = [&](int f) { return around(circle, f); };
+        if (std::ranges::any_of(vertex, narrower) || !std::ranges::all_of(wall, is_around))
             continue;
         for (const size_t i : {size_t(0), size_t(1)}) {
             Eigen::Vector3d centre = Eigen::Vector3d::Zero();

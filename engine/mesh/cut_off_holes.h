@@ -20,7 +20,7 @@ public:
     std::vector<SunkHole> of(const RoundHole& hole) const;
 
     /// What is sunk of one that goes through a bend: its wall has a sharp edge inside, which is a
-    /// circle, and is wider beyond that.
+    /// circle, and is wider beyond that. None if it hangs together with a border.
     /// @param wall  triangles, ascending
     std::vector<SunkHole> over_bend(const std::vector<int>& wall) const;
 
@@ -40,6 +40,8 @@ private:
     /// at the outer, the inner skin
     std::array<Meeting, 2> meetings(const std::vector<int>& wall) const;
     std::vector<RoundEdge> sharp_circles(const std::vector<int>& wall) const;
+    /// Whether a triangle is of a surface of revolution about the circle's axis: a border is not.
+    bool around(const RoundEdge& circle, int f) const;
     bool square(const std::vector<int>& wall, const Eigen::Vector3d& axis) const;
     SunkHole cut_off(const Meeting& meeting, SheetSide skin, const Eigen::Vector3d& inwards) const;
 };

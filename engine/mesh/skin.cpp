@@ -107,6 +107,10 @@ struct MiddleSurface {
     TriMesh rim;                                   ///< the faces across the thickness
     std::optional<ClosestPointSearch> nearest_rim; ///< none: there are none
 
+    /// Of the thickness, how far a way has to end beside the rim to be none along it: more than
+    /// chords are.
+    static constexpr double beside = 0.1;
+
     /// Where a vertex of the outer skin goes. @param to_rim at the rim along its faces; else as if
     /// there were none
     Eigen::Vector3d move(int v, bool to_rim = true) const
@@ -159,31 +163,83 @@ struct MiddleSurface {
                 at_rim = true;
             }
         const Eigen::Vector3d moved = planes.move(!sharp);
-        if (at_rim)
-            if (const auto place = beyond_chamfer(v, moved, mean, others))
+        if (at_rim && !sharp)
+            if (const auto along = along_border(v, moved, mean, others))
+                return *along;
+        if (at_rim && nearest_rim->nearest(solid.position.col(v) + moved, beside * sheet.thickness).face < 0)
+            if (const auto place = beyond_chamfer(v, mean, others))
                 return *place;
         // Where the planes leave the surface, or are too alike to say where to, straight in.
         return (at_rim || sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
     }
 
+    /// Where a slanted wall meets one that is square to the sheet, a sink or a chamfer a border, and
+    /// ends before the middle of the sheet, or meets it there no longer, or at so flat an angle that
+    /// no move obeys both. The border stays: along it to the wall beyond a chamfer, or straight down.
+    /// @returns the way then; nothing if a move stays on both walls
+    std::optional<Eigen::Vector3d> along_border(int v, const Eigen::Vector3d& moved, const Eigen::Vector3d& mean,
+                                                const std::vector<int>& others) const
+    {
+        constexpr double square = 0.02, stays = 1e-3; // sine of 1 degree; of the thickness
+        const double half = sheet.thickness / 2;
+        std::vector<int> border;
+        double reach = 0; // mm, of slanted walls halfway through the sheet
+        Planes planes;
+        planes.add(mean, -half);
+        for (const int f : others) {
+            const double lean = std::abs(normal.col(f).dot(mean));
+            if (sheet.side[size_t(f)] == SheetSide::rim && lean <= square) {
+                border.push_back(f);
+                planes.add(normal.col(f), 0);
+            } else if (sheet.side[size_t(f)] == SheetSide::rim && slanted(normal.col(f), mean))
+                reach = std::max(reach, half * lean / std::sqrt(1 - lean * lean));
+        }
+        if (border.empty() || reach == 0)
+            return std::nullopt;
+        const auto on_border = [&](const Eigen::Vector3d& way) {
+            return std::ranges::all_of(
+                border, [&](int f) { return std::abs(normal.col(f).dot(way)) <= stays * sheet.thickness; });
+        };
+        if (on_border(moved) && distance_from_slanted(solid.position.col(v) + moved, mean) <= beside * sheet.thickness)
+            return std::nullopt;
+        if (const auto place = beyond_chamfer(v, mean, others);
+            place && on_border(*place) && (*place - place->dot(mean) * mean).norm() <= reach)
+            return place;
+        return planes.move(true);
+    }
+
+    static bool slanted(const Eigen::Vector3d& wall, const Eigen::Vector3d& mean)
+    {
+        constexpr double least = 0.17, most = 0.985; // sines of 10 and of 80 degrees
+        const double lean = std::abs(wall.dot(mean));
+        return lean > least && lean < most;
+    }
+
+    /// mm, from the walls that are slanted against a direction.
+    double distance_from_slanted(const Eigen::Vector3d& place, const Eigen::Vector3d& mean) const
+    {
+        std::vector<int> faces;
+        for (int f = 0; f < solid.triangles(); ++f)
+            if (sheet.side[size_t(f)] == SheetSide::rim && slanted(normal.col(f), mean))
+                faces.push_back(f);
+        const TriMesh walls{solid.position, solid.triangle(Eigen::all, faces)};
+        return ClosestPointSearch(walls).nearest(place).distance;
+    }
+
     /// A chamfer ends before the middle of the sheet; the edge of that is at the wall, or where the
     /// walls meet, between those of both skins.
     /// @param others  faces at the vertex that are not of the outer skin
-    /// @returns the way there; nothing if the way along the faces at the vertex ends on the rim, or
-    /// no wall is square to the sheet
-    std::optional<Eigen::Vector3d> beyond_chamfer(int v, const Eigen::Vector3d& moved, const Eigen::Vector3d& mean,
+    /// @returns the way there; nothing if no wall is square to the sheet
+    std::optional<Eigen::Vector3d> beyond_chamfer(int v, const Eigen::Vector3d& mean,
                                                   const std::vector<int>& others) const
     {
-        constexpr double off = 0.1; // of the thickness: more than chords are
         const Eigen::Vector3d here = solid.position.col(v);
-        if (nearest_rim->nearest(here + moved, off * sheet.thickness).face >= 0)
-            return std::nullopt;
         const double half = sheet.thickness / 2;
         Planes planes;
         planes.add(mean, -half);
         for (const int f : others) {
             const Eigen::Vector3d own = normal.col(f), out = own - own.dot(mean) * mean;
-            if (sheet.side[size_t(f)] != SheetSide::rim || out.norm() < off)
+            if (sheet.side[size_t(f)] != SheetSide::rim || out.norm() < beside)
                 continue;
             const Eigen::Vector3d outside = here - half * mean + half * out.normalized();
             const ClosestPoint wall = nearest_rim->nearest(outside, sheet.thickness);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <initializer_list>
 #include <map>
@@ -297,6 +298,54 @@ TEST(SunkHoles, ThatAreCutAtBothSkinsAreDoubted)
             EXPECT_TRUE(std::ranges::any_of(part.doubts, [](const std::string& text) {
                 return text.find("wider than the hole below") != std::string::npos;
             }));
+        }
+}
+
+TEST(SunkHoles, ThatAreOpenToABorderAtBothSkinsLeaveItWhereItIs)
+{
+    // Both circles are open to it, the hole is not: what is laid is open as well, and doubted.
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed)
+        for (const bool land : {true, false}) {
+            shapes::SeededRandom random(seed + 600);
+            BentSolid solid;
+            const double t = solid.thickness = land ? random.between(2, 4) : 3;
+            Sink sink;
+            sink.hole = t * (land ? random.between(0.8, 1.2) : 1);
+            sink.depth = t * (land ? random.between(0.38, 0.46) : 0.5);
+            sink.wide = sink.hole + sink.depth * (land ? std::tan(random.between(0.7, 0.9)) : 1);
+            solid.leg = {16 * sink.wide, 60};
+            solid.bend = {{2 * t, 1.2}};
+            solid.width = 12 * sink.wide;
+            sink.centre = {8 * sink.wide, sink.hole + random.between(0.3, 0.8) * (sink.wide - sink.hole)};
+            solid.sink = {sink, sink};
+            solid.sink[1].left = false;
+            SCOPED_TRACE(fmt::format("seed {}, {}", seed, land ? "a straight wall" : "none"));
+            shapes::write_bent_solid(folder / "part.step", solid);
+            const Session session = solved_part(folder / "part.step", {}, constant_k(k));
+            const PartFile& part = *session.part;
+            ASSERT_TRUE(part.solid);
+            const auto said = [&](const char* words) {
+                return std::ranges::any_of(
+                    part.doubts, [&](const std::string& text) { return text.find(words) != std::string::npos; });
+            };
+            EXPECT_TRUE(said("open at a border")) << fmt::format("{}", fmt::join(part.doubts, "; "));
+            EXPECT_FALSE(said("sunk in"));
+            for (const Eigen::Matrix3Xd& mark : part.solid->marks)
+                EXPECT_LT((mark.rowwise().maxCoeff() - mark.rowwise().minCoeff()).norm(), 4 * sink.wide);
+            const double open = std::sqrt(sink.wide * sink.wide - sink.centre.y() * sink.centre.y());
+            const TriMesh& mesh = part.mesh;
+            for (const std::vector<int>& loop : boundary_loops(mesh))
+                for (size_t i = 0; i < loop.size(); ++i) {
+                    const Eigen::Vector3d p = mesh.position.col(loop[i]);
+                    const double x = p.x() - sink.centre.x(); // the leg is along x
+                    const bool of_hole =
+                        std::abs(p.z()) < t / 4 && std::hypot(x, p.y() - sink.centre.y()) < 0.999 * sink.wide;
+                    if (p.y() > sink.centre.y() + sink.wide || of_hole)
+                        continue;
+                    EXPECT_NEAR(p.y(), 0, 1e-6);
+                    EXPECT_GT(std::abs(x), 0.999 * open);
+                }
         }
 }
 
