@@ -52,10 +52,11 @@ struct Written {
     int loops, faces;
 };
 
-Written read_back(const std::filesystem::path& file)
+/// @param deflection  mm
+Written read_back(const std::filesystem::path& file, double deflection = 4e-3)
 {
     ReadOptions fine;
-    fine.cad.deflection = 4e-3;
+    fine.cad.deflection = deflection;
     const PartFile part = read_part(file, fine);
     return {area(part.mesh), part.doctor.boundary_loops.value_or(0), part.cad->faces};
 }
@@ -93,6 +94,24 @@ TEST(TrimmedFiles, OtherReadersFindTheHoles)
     }
     for (const int curves_of : {-2, -3}) // the plane of parameters, and space
         EXPECT_NEAR(area_by_curves(folder / "cut.igs", curves_of), whole - cut, 2e-4 * whole) << curves_of;
+}
+
+TEST(TrimmedFiles, BordersOfManyCornersOnFoldedSurfacesAreWritten)
+{
+    // In space such a border has many more pieces than corners.
+    const ScratchFolder folder;
+    std::vector<NurbsSurface> surface = {samples::curved_surface(80, false, 60, 20)};
+    for (int i = 0; i < surface[0].count_u; ++i)
+        for (int j = 0; j < surface[0].count_v; ++j)
+            surface[0].control(2, surface[0].index(i, j)) += i % 4 < 2 ? 3 : -3;
+    const std::vector<std::vector<TrimLoop>> holes = {{polygon(120, {0.5, 0.5}, 0.4, 0.4)}};
+    write_step(folder / "cut.step", surface, "part", LengthUnit::mm, holes);
+    write_iges(folder / "cut.igs", surface, "part", LengthUnit::mm, holes);
+    constexpr double coarse = 0.3;
+    const Written step = read_back(folder / "cut.step", coarse), iges = read_back(folder / "cut.igs", coarse);
+    EXPECT_EQ(step.loops, 2);
+    EXPECT_EQ(iges.loops, 2);
+    EXPECT_NEAR(step.area, iges.area, 5e-3 * step.area);
 }
 
 TEST(TrimmedFiles, WithoutHolesAreAsBefore)
