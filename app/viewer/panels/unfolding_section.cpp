@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/document/k_choice.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/step_parts.h"
 #include "engine/core/text.h"
@@ -162,13 +163,14 @@ void blank_of_steps(Frame& frame)
     const UnfoldRun& run = document.unfolding->run;
     if (!run.blank)
         return coloured(p.warning, "The part is not flat yet; add a step.");
+    std::string other;
     if (const auto blank = size_of_blank(document)) {
-        const std::string other = of_other_k(document, *blank);
+        other = of_other_k(document, *blank);
         ImGui::PushStyleColor(ImGuiCol_Text, other.empty() ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.muted);
         figure(frame, "Blank of the steps", size_text(blank->size[0], blank->size[1], frame.lengths()) + other);
         ImGui::PopStyleColor();
         if (!other.empty())
-            tooltip("With the K factor of the run. The blank is laid by the one that is set now once it is used.");
+            tooltip("With the K factor of the run");
     }
     if (run.flipped > 0)
         return coloured(p.warning,
@@ -194,6 +196,9 @@ void blank_of_steps(Frame& frame)
         tooltip("Uses the blank of the one-step solution instead  (F6); the blank of the steps is kept here");
         return;
     }
+    if (!other.empty())
+        muted(frame, fmt::format("Once used it is laid by the K factor that is set now ({}).",
+                                 k_words(document.session.options.k_factor)));
     if (primary_button(frame, "Use this blank", idle(frame)))
         frame.actions.push(UseBlankOfSteps{polish});
     note_place(frame, "use this blank");
