@@ -218,12 +218,13 @@ struct MiddleSurface {
     /// mm, from the walls that are slanted against a direction.
     double distance_from_slanted(const Eigen::Vector3d& place, const Eigen::Vector3d& mean) const
     {
-        std::vector<int> faces;
+        double least = std::numeric_limits<double>::infinity();
         for (int f = 0; f < solid.triangles(); ++f)
-            if (sheet.side[size_t(f)] == SheetSide::rim && slanted(normal.col(f), mean))
-                faces.push_back(f);
-        const TriMesh walls{solid.position, solid.triangle(Eigen::all, faces)};
-        return ClosestPointSearch(walls).nearest(place).distance;
+            if (sheet.side[size_t(f)] == SheetSide::rim && slanted(normal.col(f), mean)) {
+                const Eigen::Matrix3d corners = solid.position(Eigen::all, solid.triangle.col(f));
+                least = std::min(least, (corners * closest_on_triangle(corners, place) - place).norm());
+            }
+        return least;
     }
 
     /// A chamfer ends before the middle of the sheet; the edge of that is at the wall, or where the
