@@ -200,6 +200,26 @@ void expect_told(const ScratchFolder& folder, const BentSolid& solid)
     EXPECT_FALSE(part.solid->marks.empty());
 }
 
+/// A sink that ends the given length, mm, beyond the beginning of the bend of an L.
+BentSolid into_bend(std::uint64_t seed, double thickness, const shapes::SolidBend& bend, double within, Sink sink)
+{
+    BentSolid solid;
+    solid.kind = fmt::format("seed {}", seed);
+    solid.thickness = thickness;
+    solid.leg = {6 * sink.wide, 4 * sink.wide};
+    solid.width = 5 * sink.wide;
+    solid.bend = {bend};
+    sink.centre = {solid.leg[0] + within - sink.wide, solid.width / 2};
+    solid.sink = {sink};
+    return solid;
+}
+
+void expect_measured(const ScratchFolder& folder, const BentSolid& solid)
+{
+    expect_hole(folder, solid, CadForm::step);
+    expect_told(folder, solid);
+}
+
 /// At either skin of a plate, an L and a U, cut in each of these ways.
 void expect_holes(std::uint64_t seed, bool counterbore, CadForm form, std::initializer_list<Cut> cuts)
 {
@@ -236,9 +256,7 @@ TEST(SunkHoles, ThatAreCounterboresAndRunIntoABendAreMeasuredAndToldOnce)
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         shapes::SeededRandom random(seed + 400);
-        BentSolid solid;
-        solid.kind = fmt::format("seed {}", seed);
-        const double t = solid.thickness = random.between(2, 4), inner = t * random.between(1, 2);
+        const double t = random.between(2, 4), inner = t * random.between(1, 2);
         Sink sink;
         sink.counterbore = sink.seam = true;
         sink.left = random.whole(0, 3) > 0;
@@ -246,13 +264,7 @@ TEST(SunkHoles, ThatAreCounterboresAndRunIntoABendAreMeasuredAndToldOnce)
         sink.depth = t * random.between(0.35, 0.6);
         sink.wide = sink.hole + t * random.between(0.7, 1.5);
         const double within = std::min(0.6 * inner, 0.8 * (sink.wide - sink.hole)) * random.between(0.2, 1);
-        solid.leg = {6 * sink.wide, 4 * sink.wide};
-        solid.width = 5 * sink.wide;
-        solid.bend = {{inner, random.between(1.2, 1.6)}};
-        sink.centre = {solid.leg[0] + within - sink.wide, solid.width / 2};
-        solid.sink = {sink};
-        expect_hole(folder, solid, CadForm::step);
-        expect_told(folder, solid);
+        expect_measured(folder, into_bend(seed, t, {inner, random.between(1.2, 1.6)}, within, sink));
     }
 }
 
@@ -262,23 +274,15 @@ TEST(SunkHoles, ThatAreCountersinksAndEndUnderTheHollowOfABendAreTold)
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         shapes::SeededRandom random(seed + 500);
-        BentSolid solid;
-        solid.kind = fmt::format("seed {}", seed);
-        const double t = solid.thickness = random.between(2, 4), inner = t * random.between(1, 2);
+        const double t = random.between(2, 4), inner = t * random.between(1, 2);
         Sink sink;
         sink.hole = t * random.between(0.7, 1.2);
         sink.depth = t * random.between(0.6, 0.9);
         sink.wide = sink.hole + sink.depth * std::tan(random.between(0.6, 0.8));
         sink.above = inner * random.between(0.06, 0.12);
-        solid.leg = {6 * sink.wide, 4 * sink.wide};
-        solid.width = 5 * sink.wide;
-        solid.bend = {{inner, random.between(1.2, 1.6)}};
-        sink.centre = {solid.leg[0] + 0.4 * inner - sink.wide, solid.width / 2};
-        solid.sink = {sink};
-        if (sink.centre.x() + sink.hole > solid.leg[0])
+        if (sink.hole + 0.4 * inner > sink.wide)
             continue; // the hole is in the bend
-        expect_hole(folder, solid, CadForm::step);
-        expect_told(folder, solid);
+        expect_measured(folder, into_bend(seed, t, {inner, random.between(1.2, 1.6)}, 0.4 * inner, sink));
     }
 }
 
