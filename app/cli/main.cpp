@@ -55,9 +55,10 @@ void add_cad(CLI::App* command, spia::cli::CadArguments& cad)
 void add_skin(CLI::App* command, std::string& skin)
 {
     command
-        ->add_option("--skin", skin,
-                     "of a solid of sheet: the surface that stands for it, outer (the larger one), inner or middle "
-                     "(default: middle)")
+        ->add_option(
+            "--skin", skin,
+            "of a solid of sheet: the surface that stands for it, outer (outside of its bends), inner or middle "
+            "(default: middle)")
         ->check(CLI::IsMember({"outer", "inner", "middle"}));
 }
 

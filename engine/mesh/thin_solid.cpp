@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/open_counterbores.h"
 #include "engine/mesh/pick.h"
 #include "engine/mesh/round_holes.h"
@@ -69,9 +70,41 @@ void describe_outline(const SolidInPieces& solid, ThinSolid& result)
     }
 }
 
-ThinSolid result_of(const SolidInPieces& solid, double volume, double flipped)
+/// mm, of the sheet's bends: half of what both skins turn by across their edges, towards `other`,
+/// times the length of these. Times the thickness it is by how much larger `one` is, but for what
+/// is cut into either. [Steiner's formula for parallel surfaces]
+/// @param marks  their walls are no part of a bend
+double turning(const SolidInPieces& solid, const std::vector<SheetMark>& marks, double flipped)
+{
+    const TriMesh& mesh = solid.mesh;
+    const Eigen::Matrix3Xi neighbour = face_neighbours(mesh.triangles(), edge_uses(mesh.triangle));
+    std::vector<PieceSide> of;
+    for (int f = 0; f < mesh.triangles(); ++f)
+        of.push_back(solid.side(f));
+    for (const SheetMark& mark : marks)
+        for (const int f : mark.wall)
+            of[size_t(f)] = PieceSide::rim;
+    double sum = 0;
+    for (int f = 0; f < mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int g = neighbour(k, f);
+            const PieceSide side = of[size_t(f)];
+            if (g < f || side == PieceSide::rim || of[size_t(g)] != side)
+                continue;
+            const Eigen::Vector3d edge =
+                mesh.position.col(mesh.triangle((k + 1) % 3, f)) - mesh.position.col(mesh.triangle(k, f));
+            const Eigen::Vector3d a = solid.normal.col(f), b = solid.normal.col(g);
+            const double length = edge.norm(), sine = length > 0 ? a.cross(b).dot(edge) / length : 0;
+            sum += (side == PieceSide::one ? flipped : -flipped) * length * std::atan2(sine, a.dot(b));
+        }
+    return sum / 2;
+}
+
+ThinSolid result_of(const SolidInPieces& solid, std::vector<SheetMark> marks, double thickness, double volume,
+                    double flipped)
 {
     ThinSolid result;
+    result.thickness = thickness;
     result.volume = volume;
     result.flipped = flipped;
     double one = 0, other = 0;
@@ -83,10 +116,14 @@ ThinSolid result_of(const SolidInPieces& solid, double volume, double flipped)
         if (first < 0 && side != PieceSide::rim)
             first = f;
     }
-    constexpr double rounding = 1e-9;
-    const PieceSide outer = std::abs(one - other) <= rounding * (one + other) ? solid.side(first)
-                            : one > other                                     ? PieceSide::one
-                                                                              : PieceSide::other;
+    // By their bends: holes that are sunk would make the skin they are at the smaller one. Of a sheet
+    // that turns as much to either side, by their areas.
+    constexpr double rounding = 1e-9, turned = 1e-6;
+    const double bends = thickness * turning(solid, marks, flipped), areas = one - other,
+                 larger = std::abs(bends) > turned * (one + other) ? bends : areas;
+    const PieceSide outer = std::abs(larger) <= rounding * (one + other) ? solid.side(first)
+                            : larger > 0                                 ? PieceSide::one
+                                                                         : PieceSide::other;
     result.outer = outer == PieceSide::one ? one : other;
     result.inner = outer == PieceSide::one ? other : one;
     for (int f = 0; f < solid.mesh.triangles(); ++f) {
@@ -95,6 +132,7 @@ ThinSolid result_of(const SolidInPieces& solid, double volume, double flipped)
                               : side == outer        ? SheetSide::outer
                                                      : SheetSide::inner);
     }
+    result.marks = std::move(marks);
     return result;
 }
 
@@ -162,9 +200,7 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     const std::vector<LocalThickness> local = local_thickness(solid, thickness, progress.part(0.7, 1));
     require_even(solid, local, thickness);
 
-    ThinSolid result = result_of(solid, std::abs(volume), flipped);
-    result.thickness = thickness;
-    result.marks = std::move(marks);
+    ThinSolid result = result_of(solid, std::move(marks), thickness, std::abs(volume), flipped);
     std::vector<std::pair<double, double>> spread;
     for (const LocalThickness& at : local)
         spread.emplace_back(at.thickness, at.area);

@@ -11,8 +11,9 @@
 
 namespace spia {
 
-/// Where a face of a solid of sheet lies. Of the two skins the outer one has the larger area; the
-/// first face has it where they are equal.
+/// Where a face of a solid of sheet lies. The outer skin is outside of the bends as a whole, and so
+/// the larger one but for what is cut into either; of a sheet that turns as much to either side it
+/// is the one with the larger area, or else that of the first face.
 enum class SheetSide : char { outer, inner, rim };
 
 struct ThinSolidOptions {

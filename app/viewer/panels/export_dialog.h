@@ -16,7 +16,7 @@ struct Frame;
 /// What was chosen in the export dialog; kept until the program ends.
 struct ExportChoices {
     std::string folder, suggested; ///< see follow()
-    std::vector<std::string> formats = {"iges", "step", "glb"};
+    std::vector<std::string> formats = {"iges", "step", "glb", "dxf"};
     OutputOptions options;
     bool sent = false;  ///< the files are being written, or what became of them is shown
     bool asked = false; ///< "Export" was pressed although the surface is far off; the next click

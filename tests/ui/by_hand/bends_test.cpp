@@ -182,7 +182,6 @@ TEST_F(BendsByHand, TheDxfFileIsAsItsChoicesSay)
         return text;
     };
     hands->keys("ctrl+e");
-    hands->click_part("DXF");
     hands->click("arcs, else polylines");
     hands->click("arcs, else splines");
     std::string text = written();

@@ -412,6 +412,47 @@ TEST(SunkHoles, OpenAtABorderAreToldAndWithoutAStraightWallDoubted)
             }
 }
 
+TEST(SunkHoles, AreAtTheSkinOutsideOfTheBendHoweverMuchTheyTakeOfIt)
+{
+    // The areas of the skins say the opposite.
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed)
+        for (const CadForm form : {CadForm::step, CadForm::stl})
+            for (const bool outside : {true, false}) {
+                shapes::SeededRandom random(seed + 700);
+                BentSolid solid;
+                solid.thickness = random.between(2, 3);
+                solid.width = random.between(30, 40);
+                solid.leg = {50, 50};
+                const double way = random.coin() ? 1 : -1;
+                solid.bend = {{random.between(1, 2) * solid.thickness, way * random.between(0.1, 0.2)}};
+                solid.pose = seed;
+                for (const int leg : {0, 1}) {
+                    Sink sink;
+                    sink.leg = leg;
+                    sink.centre = {25, solid.width / 2};
+                    sink.hole = random.between(3, 4);
+                    sink.counterbore = random.coin();
+                    sink.depth = (sink.counterbore ? 0.45 : random.between(0.6, 0.8)) * solid.thickness;
+                    sink.wide =
+                        sink.hole + (sink.counterbore ? random.between(2, 3) : sink.depth * random.between(0.8, 1.2));
+                    sink.left = (way > 0) != outside;
+                    solid.sink.push_back(sink);
+                }
+                SCOPED_TRACE(fmt::format("seed {}, {}, sunk {}", seed, form == CadForm::step ? "STEP" : "STL",
+                                         outside ? "outside" : "inside"));
+                const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+                shapes::write_bent_solid(file, solid, form);
+                const PartFile part = read_part(file);
+                const Finding* told = part.doctor.find(Fault::mark);
+                ASSERT_TRUE(told);
+                EXPECT_EQ(told->what.size(), 2u) << told->text;
+                for (const std::string& each : told->what)
+                    EXPECT_NE(each.find(outside ? "on the outer skin" : "on the inner skin"), std::string::npos)
+                        << each;
+            }
+}
+
 TEST(SunkHoles, OfNinetyDegreesAreNoSkinWhereverTheyAre)
 {
     // Their walls are askew by 45 degrees: no skin, but by some of their chords nearly one.
