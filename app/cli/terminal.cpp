@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "engine/core/text.h"
+#include "engine/options/option.h"
 
 namespace spia::cli {
 namespace {
@@ -41,11 +42,12 @@ std::shared_ptr<const std::atomic<bool>> cancelled_by_user()
     return flag();
 }
 
-std::string shown(std::string_view text)
+std::string shown(std::string_view words)
 {
+    const std::string text = command_line_text(words);
     std::string result;
     for (size_t at = 0; at < text.size();) {
-        const size_t length = utf8_length(text.substr(at));
+        const size_t length = utf8_length(std::string_view(text).substr(at));
         const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[at + k]); };
         const bool control = length == 0 || (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7f) && byte(0) != '\n') ||
                              (length == 2 && byte(0) == 0xc2 && byte(1) < 0xa0);
@@ -53,7 +55,7 @@ std::string shown(std::string_view text)
             for (size_t k = 0; k < std::max<size_t>(1, length); ++k)
                 result += fmt::format("\\x{:02x}", byte(k));
         else
-            result += text.substr(at, length);
+            result.append(text, at, length);
         at += std::max<size_t>(1, length);
     }
     return result;

@@ -15,9 +15,9 @@ namespace spia::cli {
 /// second Ctrl-C ends the program at once.
 std::shared_ptr<const std::atomic<bool>> cancelled_by_user();
 
-/// A text for the terminal: control characters become \x1b and the like, so that no name in a file
-/// moves the cursor, clears the screen or changes the window's title; lines stay lines. Bytes that
-/// are no UTF-8 likewise.
+/// A text for the terminal: options are mentioned as they are given there; control characters
+/// become \x1b and the like, so that no name in a file moves the cursor, clears the screen or
+/// changes the window's title; lines stay lines. Bytes that are no UTF-8 likewise.
 std::string shown(std::string_view text);
 
 /// Prints results on the standard output, as shown().

@@ -6,6 +6,7 @@
 
 #include "app/viewer/window.h"
 #include "engine/core/error.h"
+#include "engine/options/option.h"
 
 int main(int count, char** values)
 {
@@ -47,10 +48,10 @@ int main(int count, char** values)
     try {
         return viewer::show_window(options);
     } catch (const InputError& error) {
-        fmt::print(stderr, "spia-viewer: {}\n", error.what());
+        fmt::print(stderr, "spia-viewer: {}\n", window_text(error.what()));
         return 2;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "spia-viewer: {}\n", error.what());
+        fmt::print(stderr, "spia-viewer: {}\n", window_text(error.what()));
         return 5;
     }
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/mesh/topology.h"
+#include "engine/options/command_line_json.h"
 
 namespace spia {
 namespace {
@@ -128,7 +129,7 @@ std::string comparison_json(const std::filesystem::path& file, const TriMesh& pa
         }
         json["methods"].push_back(std::move(entry));
     }
-    return json.dump(2) + "\n";
+    return with_command_line_texts(std::move(json)).dump(2) + "\n";
 }
 
 } // namespace spia

@@ -10,6 +10,7 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/exchange/mesh/mesh_file.h"
+#include "engine/options/part_options.h"
 #include "engine/part/prepare_part.h"
 #include "engine/part/remesh_needles.h"
 #include "engine/part/remesh_part.h"
@@ -150,12 +151,12 @@ PartFile read_part(const std::filesystem::path& path, const ReadOptions& options
             if (!options.parts.empty())
                 throw;
             if (part.cad && part.cad->tree.bodies() > 1)
-                throw InputError(fmt::format("{}\nThe file has several bodies; choose by number or name (--part):\n{}",
-                                             error.what(), item_list(part.cad->tree)));
+                throw InputError(fmt::format("{}\nThe file has several bodies; choose by number or name ({}):\n{}",
+                                             error.what(), mention(option::part), item_list(part.cad->tree)));
             if (!part.deck || part.deck->parts.size() < 2)
                 throw;
-            throw InputError(fmt::format("{}\nThe deck has several parts; choose by id or name (--part):\n{}",
-                                         error.what(), part_list(part.deck->parts)));
+            throw InputError(fmt::format("{}\nThe deck has several parts; choose by id or name ({}):\n{}", error.what(),
+                                         mention(option::part), part_list(part.deck->parts)));
         }
         return part;
     });

@@ -10,6 +10,7 @@
 #include "engine/layout/plane_lines.h"
 #include "engine/layout/spokes.h"
 #include "engine/mesh/inside_polygon.h"
+#include "engine/options/surface_options.h"
 
 namespace spia {
 
@@ -152,8 +153,8 @@ std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& cor
     const Eigen::Vector2d where = points.rowwise().mean();
     throw InputError(fmt::format(
         "the blank cannot be divided into four-sided patches near {:.6g}, {:.6g} mm of its plane: it is too narrow "
-        "there beside its arcs; give cuts (--patches FILE)",
-        where.x(), where.y()));
+        "there beside its arcs; give cuts ({})",
+        where.x(), where.y(), mention(option::patches, "FILE")));
 }
 
 /// From the middles of the sides to one place: straight lines where they can be, else bent around

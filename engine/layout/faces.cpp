@@ -8,6 +8,7 @@
 #include "engine/layout/matching.h"
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
+#include "engine/options/surface_options.h"
 
 namespace spia {
 
@@ -129,8 +130,8 @@ std::vector<Face> faces_of(const PlaneGraph& graph)
         for (size_t i = 0, j = points.size() - 1; i < points.size(); j = i++)
             twice += points[j].x() * points[i].y() - points[j].y() * points[i].x();
         if (!(twice > 0))
-            throw InputError(
-                "a hole of the blank is joined to the rest by no line of the layout; give cuts from it (--patches FILE)");
+            throw InputError("a hole of the blank is joined to the rest by no line of the layout; give cuts from it (" +
+                             mention(option::patches, "FILE") + ")");
     }
     return faces;
 }

@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/mesh_polygon.h"
+#include "engine/options/surface_options.h"
 
 namespace spia {
 
@@ -65,7 +66,7 @@ std::vector<std::unique_ptr<const PatchGrid>> patch_grids(const Layout& layout, 
                                          where.x(), where.y(), why));
         };
         if (mesh.triangle.cols() == 0)
-            fail("its sides cross each other; give cuts (--patches FILE)");
+            fail("its sides cross each other; give cuts (" + mention(option::patches, "FILE") + ")");
         auto made = std::make_unique<PatchGrid>();
         made->region.position = Eigen::Matrix3Xd::Zero(3, mesh.position.cols());
         made->region.position.topRows(2) = mesh.position;

@@ -9,6 +9,7 @@
 
 #include "engine/core/text.h"
 #include "engine/mesh/touching_edge.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -109,8 +110,11 @@ void check_edges(MendedSurface& s, bool kept_largest, DoctorReport& report)
                     "{})",
                     counted(faces.count, "edge belongs", "edges belong"), most, first.low, first.high, faces.first),
         kept_largest
-            ? "an edge of a sheet joins two faces at most, and those that meet here are connected elsewhere too: remove duplicate layers, keep one skin of the part"
-            : "an edge of a sheet joins two faces at most: remove ribs and duplicate layers, keep one skin of the part; --keep-largest leaves out what is attached at such edges");
+            ? "an edge of a sheet joins two faces at most, and those that meet here are connected elsewhere too: "
+              "remove duplicate layers, keep one skin of the part"
+            : fmt::format("an edge of a sheet joins two faces at most: remove ribs and duplicate layers, keep one "
+                          "skin of the part, or leave out what is attached at such edges ({})",
+                          mention(option::keep_largest)));
 }
 
 void report_strays(const MendedSurface& s, DoctorReport& report)
@@ -147,7 +151,7 @@ void note_slivers(const MendedSurface& s, double angle_deg, DoctorReport& report
                    fmt::format("{} an angle below {:.3g} degrees (first: face {}); the smallest is {:.3g} degrees",
                                counted(slivers.count, "triangle has", "triangles have"), angle_deg, slivers.first,
                                least * 180 / std::numbers::pi),
-                   "strains there are unreliable; use a more even mesh (--remesh)");
+                   "strains there are unreliable; use a more even mesh (" + mention(option::remesh) + ")");
 }
 
 } // namespace spia

@@ -8,6 +8,7 @@
 
 #include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -46,10 +47,12 @@ void count_pieces(const MendedSurface& s, DoctorReport& report)
         fmt::format(
             "there are {} separate pieces, the largest by area first: of {}{} triangles (first face outside it: {})",
             report.components, sizes, size.size() > 5 ? ", ..." : "", others.first),
-        fmt::format("{}keep the largest (--keep-largest), or save each piece as a separate file",
-                    unjoined ? "weld vertices at the same place (--weld) if the pieces touch; otherwise "
+        fmt::format("{}keep the largest ({}), or save each piece as a separate file",
+                    unjoined ? fmt::format("weld vertices at the same place ({}) if the pieces touch; otherwise ",
+                                           mention(option::weld))
                     : crack  ? crack->advice + "; otherwise "
-                             : ""));
+                             : "",
+                    mention(option::keep_largest)));
 }
 
 /// Edges of the surface, and boundary loops of each piece.

@@ -10,6 +10,7 @@
 #include "engine/mesh/edge_vertices.h"
 #include "engine/mesh/split_polygon.h"
 #include "engine/mesh/weld.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -46,7 +47,8 @@ void note_cracks(const PolygonSoup& soup, const std::vector<int>& same_as, Docto
                fmt::format("open edges lie up to {:.3g} mm beside others and seem to be the same: a crack along {} "
                            "vertices (first: vertex {})",
                            cracks->widest, vertices.count, vertices.first),
-               fmt::format("close the crack if the sheet is whole there (--weld {:.2g})", cracks->tolerance));
+               fmt::format("close the crack if the sheet is whole there ({})",
+                           mention(option::weld, fmt::format("{:.2g}", cracks->tolerance))));
     report.findings.back().weld_gap = cracks->tolerance;
 }
 
@@ -107,7 +109,8 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                    fmt::format("{} at the place of another (first: vertex {}) and {} left there",
                                counted(joined.count, "vertex lies", "vertices lie"), joined.first,
                                joined.count == 1 ? "was" : "were"),
-                   "if faces that should be connected are not, weld vertices at the same place (--weld)");
+                   "if faces that should be connected are not, weld vertices at the same place (" +
+                       mention(option::weld) + ")");
     std::vector<int> themselves(size_t(soup.vertices()));
     std::iota(themselves.begin(), themselves.end(), 0);
     return themselves;

@@ -8,6 +8,7 @@
 #include "engine/core/text.h"
 #include "engine/mesh/corner_seam.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -142,8 +143,8 @@ void note_corners(PartFile& part, const SeamOptions& seam)
     part.doctor.add(
         Fault::closed_corner, Severity::note, where,
         fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", describe(*corners)),
-        fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain (--seam corners)",
-                    corners->length));
+        fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain ({})", corners->length,
+                    mention(option::seam, "corners")));
     part.doctor.findings.back().place = std::move(place);
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
+#include "engine/options/part_options.h"
 #include "engine/part/part_file.h"
 #include "engine/remesh/triangle_quality.h"
 
@@ -50,7 +51,7 @@ void check_targets(const MeshTargets& targets, PartFile& part)
             ratio.add(f, r, r > ratio.value);
     }
     const std::string advice = part.remeshed ? "; remesh with another size of edges or a larger tolerance"
-                                             : "; mesh the part again (--remesh)";
+                                             : "; mesh the part again (" + mention(option::remesh) + ")";
     const auto tell = [&](const Missed& missed, std::string what) {
         if (missed.count == 0)
             return;

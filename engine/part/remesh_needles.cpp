@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
 #include "engine/part/remesh_part.h"
 #include "engine/part/stated_curvature.h"
 #include "engine/remesh/triangle_quality.h"
@@ -32,13 +33,15 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
             remesh.tolerance =
                 std::clamp(*deflection, 1e-6 * bounding_diagonal(part.mesh), 1e-3 * bounding_diagonal(part.mesh));
         remesh_part(part, remesh, progress);
-        part.notes.push_back(
-            "needle triangles were remeshed, because the part does not unroll and they would falsify its strains; they can be kept (--no-remesh)");
+        part.notes.push_back(fmt::format("needle triangles were remeshed, because the part does not unroll and they "
+                                         "would falsify its strains; they can be kept ({})",
+                                         mention(option::no_remesh)));
     } catch (const InputError& error) {
         for (Finding& finding : part.doctor.findings)
             if (finding.fault == Fault::sliver)
-                finding.advice =
-                    "strains there are unreliable; remeshing failed (see the notes), but may work with another size or tolerance (--remesh-size or --remesh-tolerance)";
+                finding.advice = fmt::format("strains there are unreliable; remeshing failed (see the notes), but may "
+                                             "work with another size or tolerance ({} or {})",
+                                             mention(option::remesh_size), mention(option::remesh_tolerance));
         part.notes.push_back(fmt::format(
             "needle triangles make the strains of this part unreliable, which does not unroll; they were not remeshed: {}",
             error.what()));

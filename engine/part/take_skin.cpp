@@ -16,6 +16,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/mesh/uneven_bends.h"
 #include "engine/mesh/without_marks.h"
+#include "engine/options/part_options.h"
 #include "engine/part/mark_findings.h"
 #include "engine/part/middle_surface.h"
 
@@ -115,10 +116,11 @@ void refuse(PartFile& part, const NotASheet& reason, bool solid)
                     "a solid is taken apart where it is a sheet of one thickness; else give one skin of the sheet: ",
                     {},
                     {}};
-    finding.advice += part.cad
-                          ? "choose its faces (--part, e.g. 3 or 0-17), or export it as a surface"
-                          : "delete the other side and the faces across the thickness. If it is a hollow body, give "
-                            "the seam along which to cut it open";
+    finding.advice +=
+        part.cad
+            ? fmt::format("choose its faces ({}, e.g. 3 or 0-17), or export it as a surface", mention(option::part))
+            : "delete the other side and the faces across the thickness. If it is a hollow body, give "
+              "the seam along which to cut it open";
     if (finding.first >= 0) {
         finding.where.push_back(finding.first);
         finding.place.push_back(reason.place);
@@ -204,8 +206,8 @@ void note_hollow(PartFile& part, const std::string& why)
     if (seems_thin_solid(part.mesh))
         part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of sheet; "
                                          "but {}. It is taken as a hollow body; if it is a solid of sheet, choose the "
-                                         "skin that stands for it (--skin middle) for the reason to refuse it",
-                                         why));
+                                         "skin that stands for it ({}) for the reason to refuse it",
+                                         why, mention(option::skin, "middle")));
 }
 
 /// @returns whether it is taken for a solid of sheet; says so where it may be the other thing as
@@ -218,10 +220,11 @@ bool decide(PartFile& part, const ThinSolid& sheet)
                     "the file does not say which it is; the sheet would be {:.2g} times as thick as it is wide",
                     sheet.thickness, proportion(sheet));
     if (closed == ClosedSurface::perhaps_sheet)
-        doubt(part, either + ". It is taken as a solid; a hollow body is cut open along a seam that you give (--seam)");
+        doubt(part, fmt::format("{}. It is taken as a solid; a hollow body is cut open along a seam that you give ({})",
+                                either, mention(option::seam, "FILE")));
     if (closed == ClosedSurface::perhaps_hollow)
-        doubt(part, either + ". It is taken as a hollow body; for a solid choose the skin that stands for it (--skin "
-                             "middle)");
+        doubt(part, fmt::format("{}. It is taken as a hollow body; for a solid choose the skin that stands for it ({})",
+                                either, mention(option::skin, "middle")));
     return closed != ClosedSurface::perhaps_hollow;
 }
 
@@ -301,10 +304,11 @@ void note_skin(PartFile& part, bool uneven_told)
                                  ? fmt::format("middle surface, from the {} of its {} skin,",
                                                counted(taken, "face", "faces"), of_skin(solid.side))
                                  : fmt::format("{} skin of {}", name(solid.skin), counted(taken, "face", "faces"));
-    part.notes.push_back(fmt::format("a solid of {}{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
-                                     "surface of it)",
+    part.notes.push_back(fmt::format("a solid of {}{}: its {} is taken, sheet {:.6g} mm thick (another surface "
+                                     "of it: {})",
                                      counted(solid.faces, "face", "faces"),
-                                     solid.open ? ", some of which are missing" : "", what, solid.thickness));
+                                     solid.open ? ", some of which are missing" : "", what, solid.thickness,
+                                     mention(option::skin)));
     constexpr double uneven = 1.15; // a bend with one radius on both sides is up to 1.41 times as
                                     // thick
     if (part.cad && !uneven_told && solid.most > uneven * solid.thickness)

@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file_content.h"
 #include "engine/core/text.h"
+#include "engine/options/sheet_options.h"
 #include "engine/unfold/step/relaid_blank.h"
 #include "engine/unfold/step/upright.h"
 
@@ -73,8 +74,10 @@ NeutralFibre part_bends(const PartFile& part, double thickness, const std::optio
     // A sheet that is given as triangles is these triangles, unless its bends are asked for. Of
     // solids and CAD faces they are ours or stand for arcs.
     if (!k && !part.cad && !part.solid)
-        keep_triangles(fibre, "the mesh has them; a K factor (--k-factor, also 0.5) lays arcs in their place",
-                       "give a K factor (--k-factor)");
+        keep_triangles(fibre,
+                       "the mesh has them; a K factor, also 0.5, lays arcs in their place (" +
+                           mention(option::k_factor) + ")",
+                       "give a K factor (" + mention(option::k_factor) + ")");
     return fibre;
 }
 
@@ -112,9 +115,9 @@ KFactor k_factor(const std::string& text)
     constexpr std::uintmax_t most_bytes = 1 << 20;
     std::error_code none;
     if (!std::filesystem::is_regular_file(text, none))
-        throw InputError(fmt::format("--k-factor {}: give a number above 0 and below 1, din6935, or a file with a "
-                                     "table of R/t and K",
-                                     text));
+        throw InputError(fmt::format("{}: give a number above 0 and below 1, din6935, or a file with a table of "
+                                     "R/t and K",
+                                     mention(option::k_factor, text)));
     if (std::filesystem::file_size(text, none) > most_bytes)
         throw InputError(fmt::format("{}: a table of K factors has 1 MB at most", text));
     if (std::filesystem::file_size(text, none) == 0)

@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
+#include "engine/options/surface_options.h"
 #include "engine/pipeline/file_members.h"
 
 namespace spia {
@@ -54,7 +55,9 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
             top.member("edge_deg").fail("cannot be with cuts or corners, where no edges are looked for; leave it out");
     }
     if (layout.cuts.empty() && layout.corners.empty() && !layout.smooth_joins && !json.contains("edge_deg"))
-        top.fail("must have cuts, corners, edge_deg or \"smooth_joins\": true; --patches auto needs no file");
+        top.fail("must have cuts, corners, edge_deg or \"smooth_joins\": true; no file is needed for a layout without "
+                 "them (" +
+                 mention(option::patches, "auto") + ")");
     return layout;
 }
 

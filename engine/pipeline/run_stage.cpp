@@ -15,6 +15,8 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/blank_chart.h"
+#include "engine/options/part_options.h"
+#include "engine/options/surface_options.h"
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/session.h"
@@ -319,9 +321,9 @@ void make_patches(Session& session, const Progress& progress)
 {
     const PartFile& part = *session.part;
     if (session.blank->flipped_triangles > 0)
-        throw InputError(
-            "the blank has triangles that are turned over: it cannot be divided into patches; remesh the part (--remesh), or "
-            "take one patch (--patches one)");
+        throw InputError(fmt::format("the blank has triangles that are turned over: it cannot be divided into patches; "
+                                     "remesh the part ({}), or take one patch ({})",
+                                     mention(option::remesh), mention(option::patches, "one")));
     LayoutOptions layout = *session.options.patches;
     layout.file_number = part.source_vertex;
     for (int& v : layout.corners)
@@ -353,9 +355,10 @@ void make_patches(Session& session, const Progress& progress)
         why.text = fmt::format(
             "the patches stay up to {:.3g} mm from the part, more than the tolerance of {:.3g} mm, near {:.6g}, "
             "{:.6g}, {:.6g} mm: a sharp edge or corner within a patch, or too few control points "
-            "(--max-control-points); let patches end on flatter edges (--patch-edges DEG), cut "
-            "along the edge (--patches FILE), or allow more",
-            fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z());
+            "({}); let patches end on flatter edges ({}), cut along the edge ({}), or allow more",
+            fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z(),
+            mention(option::max_control_points), mention(option::patch_edges, option::patch_edges.value),
+            mention(option::patches, "FILE"));
     }
     stage.patches = std::move(fitted);
     stage.certificate = certify(stage.patches->patches, progress.part(0.95, 1));

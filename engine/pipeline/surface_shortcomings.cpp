@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "engine/options/surface_options.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/usual_tolerance.h"
 
@@ -42,10 +43,10 @@ std::optional<std::string> far_surface(const Session& session)
                                            : deviation.mesh_to_surface;
     return fmt::format(
         "the surface is up to {:.3g} mm from the part, near ({:.6g}, {:.6g}, {:.6g}), on {} of its area by more than the "
-        "usual tolerance of {:.3g} mm: ask for a tolerance of the surface (--tolerance), for patches (--patches auto), or for "
-        "more cells (--grid)",
+        "usual tolerance of {:.3g} mm: ask for a tolerance of the surface ({}), for patches ({}), or for more cells ({})",
         deviation.max(), tidy(worse.where.x()), tidy(worse.where.y()), tidy(worse.where.z()),
-        percent(1 - deviation.within()), usual_tolerance);
+        percent(1 - deviation.within()), usual_tolerance, mention(option::tolerance), mention(option::patches, "auto"),
+        mention(option::grid));
 }
 
 std::optional<std::string> folded_surface(const Session& session)
@@ -63,10 +64,12 @@ std::optional<std::string> folded_surface(const Session& session)
                            percent(turned));
     else
         return std::nullopt;
-    return text + (session.options.patches
-                       ? "; add a cut there (--patches FILE), or take one patch (--patches one)"
-                       : "; choose corners at sharp corners of the blank (--corners), more cells (--grid), or patches "
-                         "(--patches auto)");
+    return text +
+           (session.options.patches
+                ? fmt::format("; add a cut there ({}), or take one patch ({})", mention(option::patches, "FILE"),
+                              mention(option::patches, "one"))
+                : fmt::format("; choose corners at sharp corners of the blank ({}), more cells ({}), or patches ({})",
+                              mention(option::corners), mention(option::grid), mention(option::patches, "auto")));
 }
 
 } // namespace spia

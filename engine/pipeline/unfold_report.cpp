@@ -6,6 +6,7 @@
 
 #include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/command_line_json.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_shortcomings.h"
@@ -312,7 +313,7 @@ std::string unfold_report_json(const std::filesystem::path& input, const PartFil
         json["bend_table"] = bend_table_json(*table);
     json["polish"] = polished ? polish_json(*polished) : Json(nullptr);
     json["files"] = names;
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return with_command_line_texts(std::move(json)).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace spia

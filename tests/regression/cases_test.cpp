@@ -9,6 +9,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/session.h"
@@ -149,7 +150,7 @@ TEST_F(Cases, K14SeamsActOnSolidsAndCornersAreSaid)
 {
     const PartFile tray = examined("14-tray.obj");
     ASSERT_TRUE(tray.doctor.find(Fault::closed_corner));
-    EXPECT_THAT(tray.doctor.find(Fault::closed_corner)->advice, HasSubstr("--seam corners"));
+    EXPECT_THAT(tray.doctor.find(Fault::closed_corner)->advice, HasSubstr(mention(option::seam, "corners")));
     const auto strain = [](const Session& session) {
         return session.blank->face.strain_equivalent.cwiseAbs().maxCoeff();
     };

@@ -2,7 +2,7 @@
 # A module includes only what stands before it in this list, a room of it likewise; heavy third-party headers stay where they belong.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-order=(core mesh remesh sparse forming compare limits unfold coons nurbs layout deform part exchange picture pipeline report)
+order=(core options mesh remesh sparse forming compare limits unfold coons nurbs layout deform part exchange picture pipeline report)
 bad=0
 complain() {
     printf '%s\n' "$*"

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "app/viewer/model/reports/lights.h"
-#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/report/text/lengths.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 namespace {

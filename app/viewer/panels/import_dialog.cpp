@@ -9,12 +9,12 @@
 #include "app/viewer/model/actions/members.h"
 #include "app/viewer/model/picking/picking.h"
 #include "app/viewer/model/reports/typed_number.h"
-#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/view_tools.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/text.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
@@ -10,6 +9,7 @@
 #include "engine/report/text/number_text.h"
 #include "engine/report/text/zone_look.h"
 
+#include "engine/report/text/sentence.h"
 namespace spia::viewer {
 namespace {
 

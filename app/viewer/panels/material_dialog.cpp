@@ -4,11 +4,12 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/suggested_files.h"
-#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/stress_plot.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/options/option.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 namespace {
@@ -111,7 +112,7 @@ const MaterialChoices::Outcome& outcome_of(MaterialChoices& choices)
         try {
             made.fit = fit_material(choices.table, choices.options);
         } catch (const std::exception& error) {
-            made.problem = in_viewer_words(error.what());
+            made.problem = window_text(error.what());
         }
         return made;
     });

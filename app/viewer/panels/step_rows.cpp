@@ -2,9 +2,9 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/step_parts.h"
 #include "engine/core/text.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 namespace {

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/grades.h"
-#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/bend_rows.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/fit_editor.h"
@@ -15,6 +14,7 @@
 
 namespace spia::viewer {
 namespace {
+#include "engine/report/text/sentence.h"
 
 Status status(const Frame& frame, Stage stage, bool there)
 {

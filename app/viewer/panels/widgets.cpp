@@ -9,10 +9,10 @@
 #include <imgui_internal.h> // ClearActiveID, NavRectRel, TempInputId
 
 #include "app/viewer/model/reports/typed_number.h"
-#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/model/reports/wrapped_text.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
+#include "engine/options/option.h"
 #include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
@@ -306,7 +306,7 @@ void wrapped(const std::string& text)
 
 std::string engine_words(const Frame& frame, std::string text)
 {
-    return in_shown_lengths(in_viewer_words(std::move(text)), frame.lengths());
+    return in_shown_lengths(window_text(text), frame.lengths());
 }
 
 void wide_item(const char* label)

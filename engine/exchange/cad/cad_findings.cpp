@@ -13,6 +13,7 @@
 #include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/doctor.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -74,9 +75,10 @@ void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
                             -1,
                             cad.unmeshed_left_out ? text + "; left out" : text,
                             cad.unmeshed_left_out
-                                ? "check the holes they leave"
-                                : "repair them in the CAD system, choose the other faces (--part), or leave "
-                                  "these out and take the rest (--skip-bad-faces)",
+                                ? std::string("check the holes they leave")
+                                : fmt::format("repair them in the CAD system, choose the other faces ({}), or leave "
+                                              "these out and take the rest ({})",
+                                              mention(option::part), mention(option::skip_bad_faces)),
                             {},
                             {}});
     };
@@ -160,7 +162,7 @@ void report_doubles(const CadContent& cad, std::vector<Finding>& findings)
     findings.push_back(std::move(finding));
 }
 
-/// "0-17, 19": ascending numbers as they are given to --part.
+/// "0-17, 19": ascending numbers as the option takes them.
 std::string ranges(const std::set<int>& faces)
 {
     std::string text;
@@ -193,10 +195,8 @@ void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
     std::set<int> others(cad.face.begin(), cad.face.end());
     for (const int face : cad.overlapping)
         others.erase(face);
-    finding.advice = "leave out duplicate or branching faces: choose the others (--part)";
-    if (!others.empty())
-        finding.advice =
-            fmt::format("leave out duplicate or branching faces: choose the others (--part {})", ranges(others));
+    finding.advice = fmt::format("leave out duplicate or branching faces: choose the others ({})",
+                                 mention(option::part, ranges(others)));
     findings.push_back(std::move(finding));
 }
 
@@ -278,7 +278,7 @@ void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Find
                         -1,
                         fmt::format("it holds {} bodies that are not connected: {}{}", choices.size(),
                                     fmt::join(named, "; "), choices.size() > shown ? " and more" : ""),
-                        fmt::format("choose one of them (--part {})", choices.front()),
+                        fmt::format("choose one of them ({})", mention(option::part, choices.front())),
                         {},
                         {}});
 }
@@ -297,10 +297,12 @@ void name_pieces(const CadContent& cad, PartFile& part)
             for (const Piece& piece : std::span(all).first(std::min(most, all.size())))
                 choices.push_back(describe(piece));
             // A closed one is no sheet, often a box around the model: nobody wants to keep it.
-            finding.advice = fmt::format(
-                "{} the CAD faces of one piece (--part): {}{}",
-                !all.empty() && all.front().closed ? "choose" : "keep the largest (--keep-largest), or choose",
-                fmt::join(choices, " or "), all.size() > most ? ", ..." : "");
+            finding.advice =
+                fmt::format("{} the CAD faces of one piece ({}): {}{}",
+                            !all.empty() && all.front().closed
+                                ? "choose"
+                                : fmt::format("keep the largest ({}), or choose", mention(option::keep_largest)),
+                            mention(option::part), fmt::join(choices, " or "), all.size() > most ? ", ..." : "");
             continue;
         }
         std::set<int> left_out(cad.face.begin(), cad.face.end());

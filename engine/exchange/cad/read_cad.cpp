@@ -25,6 +25,7 @@
 #include "engine/exchange/cad/occt_session.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/weld.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -86,8 +87,8 @@ void scale(CadShape& shape, LengthUnit unit)
     if (!shape.unit.empty())
         throw InputError(
             fmt::format("{} files have a unit of their own, here {}, and lengths were converted to mm; leave the unit "
-                        "out (--unit)",
-                        shape.format, shape.unit));
+                        "out ({})",
+                        shape.format, shape.unit, mention(option::unit)));
     gp_Trsf scaling;
     scaling.SetScaleFactor(millimetres(unit));
     // the whole, for faces to keep common edges

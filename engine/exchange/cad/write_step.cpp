@@ -11,6 +11,7 @@
 #include "engine/exchange/cad/occt_step.h"
 #include "engine/exchange/cad/occt_surface.h"
 #include "engine/exchange/cad/trimmed_face.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -41,8 +42,8 @@ void require_faces(const StepData_StepModel& model, size_t wanted)
     if (faces != wanted)
         throw ExchangeError(
             fmt::format("OpenCASCADE put {} of {} surfaces into the STEP file; they may be smaller than its "
-                        "resolution of {} mm: check the length unit of the part (--unit)",
-                        faces, wanted, step_resolution));
+                        "resolution of {} mm: check the length unit of the part ({})",
+                        faces, wanted, step_resolution, mention(option::unit)));
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "engine/core/read_number.h"
 #include "engine/core/text.h"
 #include "engine/mesh/doctor.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -53,12 +54,13 @@ void require_whole(const Deck& deck, const DeckPart& part)
 {
     if (part.broken > 0)
         throw InputError(fmt::format("part {}: {} nodes that are not in the deck (first: element {}, node {}); "
-                                     "add the file that holds them, or choose other parts by id or name (--part):\n{}",
+                                     "add the file that holds them, or choose other parts by id or name ({}):\n{}",
                                      title(part), counted(part.broken, "shell names", "shells name"),
-                                     part.broken_element, part.missing_node, part_list(deck.parts)));
-    if (part.elements == 0)
-        throw InputError(fmt::format("part {} has no shell elements; choose one that has (--part):\n{}", title(part),
+                                     part.broken_element, part.missing_node, mention(option::part),
                                      part_list(deck.parts)));
+    if (part.elements == 0)
+        throw InputError(fmt::format("part {} has no shell elements; choose one that has ({}):\n{}", title(part),
+                                     mention(option::part), part_list(deck.parts)));
 }
 
 std::vector<char> chosen_elements(const Deck& deck, std::span<const std::string> wanted)
@@ -73,14 +75,14 @@ std::vector<char> chosen_elements(const Deck& deck, std::span<const std::string>
         }
         const int s = named(each, deck.sets.size(), [&](size_t i) { return std::string_view(deck.sets[i].name); });
         if (s < 0)
-            throw InputError(fmt::format("there is no part '{}' in the deck; choose by id or name (--part):\n{}", each,
-                                         part_list(deck.parts)));
+            throw InputError(fmt::format("there is no part '{}' in the deck; choose by id or name ({}):\n{}", each,
+                                         mention(option::part), part_list(deck.parts)));
         const DeckSet& set = deck.sets[size_t(s)];
         if (set.broken > 0)
             throw InputError(fmt::format("element set {}: {} nodes that are not in the deck; add the file that holds "
-                                         "them, or choose other parts by id or name (--part):\n{}",
+                                         "them, or choose other parts by id or name ({}):\n{}",
                                          set.name, counted(set.broken, "shell names", "shells name"),
-                                         part_list(deck.parts)));
+                                         mention(option::part), part_list(deck.parts)));
         for (const int e : set.elements)
             chosen[size_t(e)] = 1;
     }

@@ -8,6 +8,7 @@
 #include "engine/core/text.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/mesh/doctor.h"
+#include "engine/options/part_options.h"
 
 namespace spia {
 namespace {
@@ -64,8 +65,8 @@ void require_once(std::vector<std::int64_t> ids, const char* what)
     if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
         throw InputError(
             fmt::format("{0} {1} is there more than once in the deck, so results cannot be put onto its {0}s; "
-                        "choose one part of it (--part), or renumber the deck",
-                        what, *twice));
+                        "choose one part of it ({2}), or renumber the deck",
+                        what, *twice, mention(option::part)));
 }
 
 /// The parts in use, all with a number.

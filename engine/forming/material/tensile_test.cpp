@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/mesh/doctor.h"
+#include "engine/options/sheet_options.h"
 
 namespace spia {
 namespace {
@@ -40,14 +41,15 @@ public:
         const std::optional<Line> elastic = elastic_line(all, neck);
         out_.measured_young = !options_.young_MPa && elastic;
         if (!elastic && !options_.young_MPa)
-            fail("the rows hold no straight elastic part (five rows between 10 and 50 % of the yield stress); give "
-                 "Young's modulus with --young");
+            fail(fmt::format("the rows hold no straight elastic part (five rows between 10 and 50 % of the yield "
+                             "stress); give Young's modulus ({})",
+                             mention(option::young)));
         out_.young_MPa = options_.young_MPa ? *options_.young_MPa : elastic->slope;
         constexpr double least_MPa = 2e4, greatest_MPa = 5e5; // lead 16000, tungsten 400000
         if (!(out_.young_MPa > least_MPa && out_.young_MPa < greatest_MPa))
             fail(fmt::format("Young's modulus is {:.4g} MPa; no sheet has that. Is the strain that of the machine? "
-                             "Give the modulus with --young",
-                             out_.young_MPa));
+                             "Give the modulus ({})",
+                             out_.young_MPa, mention(option::young)));
         cut(all, neck, elastic ? *elastic : Line{out_.young_MPa, 0});
         return std::move(out_);
     }
@@ -86,9 +88,10 @@ private:
         const bool truly = table_.heading_has("true") || table_.heading_has("logarithmic"),
                    engineering = table_.heading_has("engineering") || table_.heading_has("nominal");
         if (truly == engineering)
-            fail(truly ? "the heading says both true and engineering; choose with --data"
-                       : "the heading does not say whether stress and strain are engineering or true; choose with "
-                         "--data engineering or --data true");
+            fail(fmt::format("the heading {}; choose ({})",
+                             truly ? "says both true and engineering"
+                                   : "does not say whether stress and strain are engineering or true",
+                             mention(option::stress_measure, "engineering|true")));
         return truly;
     }
 

@@ -4,9 +4,6 @@
 
 namespace spia {
 
-std::string ReportReader::told(std::string text) const
-{
-    return in_shown_lengths(words ? words(std::move(text)) : text, lengths);
-}
+std::string ReportReader::told(std::string text) const { return in_shown_lengths(words(text), lengths); }
 
 } // namespace spia

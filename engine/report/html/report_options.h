@@ -1,8 +1,8 @@
 #pragma once
-#include <functional>
 #include <string>
 
 #include "engine/core/length_unit.h"
+#include "engine/options/option.h"
 
 namespace spia {
 
@@ -13,12 +13,10 @@ struct ReportTables {
     friend bool operator==(const ReportTables&, const ReportTables&) = default;
 };
 
-/// How the reader is told what the engine says, which speaks of mm and of the options of the
-/// command line.
+/// How the reader is told what the engine says, which speaks of mm and mentions options.
 struct ReportReader {
-    LengthUnit lengths = LengthUnit::mm;           ///< mm or inch
-    std::function<std::string(std::string)> words; ///< those of another program; none: as the
-                                                   ///< engine says it
+    LengthUnit lengths = LengthUnit::mm;                        ///< mm or inch
+    std::string (*words)(std::string_view) = command_line_text; ///< or window_text
 
     std::string told(std::string text) const;
 };

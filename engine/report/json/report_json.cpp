@@ -10,6 +10,7 @@
 #include "engine/forming/material/material_text.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/command_line_json.h"
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
@@ -405,7 +406,7 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
     json["seconds"]["write"] = write_seconds;
     json["seconds"]["total"] = total;
     json["peak_memory_mb"] = peak_memory_mb();
-    return json.dump(2) + "\n";
+    return with_command_line_texts(std::move(json)).dump(2) + "\n";
 }
 
 std::vector<std::string> reading_notes(const PartFile& part)
@@ -477,7 +478,7 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
         json["area_mm2"] = area(part.mesh);
         json["bounding_box_mm"] = {low[0], low[1], low[2], high[0], high[1], high[2]};
     }
-    return json.dump(2) + "\n";
+    return with_command_line_texts(std::move(json)).dump(2) + "\n";
 }
 
 } // namespace spia

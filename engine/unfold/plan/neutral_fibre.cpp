@@ -12,6 +12,8 @@
 #include "engine/core/error.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
+#include "engine/options/sheet_options.h"
 #include "engine/unfold/plan/free_ends.h"
 
 namespace spia {
@@ -286,10 +288,11 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
     if (!(layers.thickness > 0) || !std::isfinite(layers.thickness))
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", layers.thickness));
     if (layers.k && layers.mesh_at != 0)
-        throw InputError(
+        throw InputError(fmt::format(
             "a K factor says where the neutral fibre lies, but a skin of the solid is laid flat in place of its middle "
-            "surface: leave one of them out (--k-factor or --skin); where no skin was asked for the notes say why "
-            "there is no middle surface");
+            "surface: leave one of them out ({} or {}); where no skin was asked for the notes say why there is no middle "
+            "surface",
+            mention(option::k_factor), mention(option::skin)));
     constexpr double flat = 0.05 * degree; // what turns less is a plane that CAD tilted
     const FreeEnds ends(part);
     std::vector<Candidate> candidates;

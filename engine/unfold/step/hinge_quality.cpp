@@ -9,6 +9,7 @@
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/vectors.h"
+#include "engine/options/advice.h"
 
 namespace spia {
 namespace {
@@ -63,9 +64,8 @@ TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const s
                 const double off = (x - placed(face, developed(face, x))).norm();
                 if (!(off <= limit))
                     throw InputError(fmt::format(
-                        "the fixed face {} ends {:.3g} mm beside the target, where freed faces are joined to it; give a "
-                        "target that goes through their common edge",
-                        f, off));
+                        "the fixed face {} ends {:.3g} mm beside the target, where freed faces are joined to it; {}", f,
+                        off, mention(advice::common_edge)));
                 fit.distance_mm = std::max(fit.distance_mm, off);
                 fit.angle = std::max(fit.angle, angle_between(outer_normal(face, x), normal) - chord);
             }

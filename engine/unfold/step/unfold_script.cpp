@@ -16,6 +16,7 @@
 #include "engine/forming/solver/sheet_fields.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/advice.h"
 #include "engine/unfold/step/target_friction.h"
 #include "engine/unfold/step/upright.h"
 #include "engine/unfold/target/fit_height.h"
@@ -61,8 +62,8 @@ std::optional<TargetSurface> target_of(const TriMesh& now, const PlannedStep& st
 {
     std::optional<TargetSurface> target = step.pick.target;
     if (!target && step.carrying_lost)
-        throw InputError(
-            "the fixed faces of its target are not on the part any more; pick others that stay, or give it a target");
+        throw InputError("the fixed faces of its target are not on the part any more; " +
+                         mention(advice::other_carriers));
     if (!target && (step.within_mm > 0 || step.offset_mm != 0 || step.kind == UnfoldKind::unroll)) {
         const std::vector<int>& faces = carrying_faces(step);
         if (faces.empty())
@@ -74,8 +75,8 @@ std::optional<TargetSurface> target_of(const TriMesh& now, const PlannedStep& st
             fit = fit_height(now, faces);
         if (!fit)
             throw InputError(fmt::format("the carrying faces around face {} lie on no plane, cylinder or cone within "
-                                         "{:.3g} mm; pick others, allow more or give a target",
-                                         faces[0], within * diagonal(now, faces)));
+                                         "{:.3g} mm; {}",
+                                         faces[0], within * diagonal(now, faces), mention(advice::closer_carriers)));
         target = fit->face;
     }
     if (target && step.offset_mm != 0)

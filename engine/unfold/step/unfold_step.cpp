@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/solver/sheet_fields.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/advice.h"
 #include "engine/unfold/step/freed_piece.h"
 #include "engine/unfold/step/hinge_quality.h"
 #include "engine/unfold/step/solve_piece.h"
@@ -101,8 +102,8 @@ TargetSurface target_of(const TriMesh& part, const TriMesh& state, const UnfoldP
     if (!fit)
         throw InputError(
             fmt::format("the fixed faces around face {} lie on no plane, cylinder or cone and turn too far for a "
-                        "smooth face over a plane; pick those that carry the target, or give one",
-                        faces[0]));
+                        "smooth face over a plane; {}",
+                        faces[0], mention(advice::smooth_carriers)));
     return fit->face;
 }
 

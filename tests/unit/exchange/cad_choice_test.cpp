@@ -4,6 +4,7 @@
 #include "engine/exchange/cad/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
 #include "tests/unit/exchange/sample_assembly.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -79,7 +80,8 @@ TEST(CadChoice, OneSolidOfAnAssemblyGivesItsSkin)
     const ScratchFolder folder;
     write_sample_assembly(folder / "car.step");
     const std::string all = refusal(folder / "car.step");
-    for (const char* said : {"body:0", "right", "Cover", "assembly:1", "--part"})
+    for (const std::string& said :
+         std::vector<std::string>{"body:0", "right", "Cover", "assembly:1", mention(option::part)})
         EXPECT_NE(all.find(said), std::string::npos) << all;
     ReadOptions options;
     for (const char* choice : {"right", "body:1", "6-11"}) {

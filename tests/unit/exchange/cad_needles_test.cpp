@@ -5,6 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
 #include "tests/unit/exchange/sample_faces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -34,7 +35,7 @@ TEST(CadNeedles, OnADrawnPartAreRemeshedUnasked)
     EXPECT_EQ(part.remeshed->before.triangles, kept.mesh.triangles());
     EXPECT_GT(part.remeshed->after.least_angle_of_99 * degrees, 25);
     EXPECT_LE(part.remeshed->distance, part.remeshed->tolerance);
-    EXPECT_TRUE(has_note(part, "--no-remesh"));
+    EXPECT_TRUE(has_note(part, mention(option::no_remesh)));
     using std::numbers::pi;
     // Pappus: bottom, round (its line, its centroid 2/pi radii beyond 96) and wall, a quarter of a
     // turn

@@ -15,6 +15,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/weld.h"
+#include "engine/options/option.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -223,11 +224,11 @@ TEST(CadSewing, NamesPiecesByTheirFaces)
     const Finding* pieces = both.doctor.find(Fault::several_components);
     ASSERT_TRUE(pieces);
     EXPECT_EQ(pieces->severity, Severity::fatal);
-    EXPECT_NE(
-        pieces->advice.find(
-            "keep the largest (--keep-largest), or choose the CAD faces of one piece (--part): 1-2 (4 triangles, 40 x 10 x 0 mm) or 0 (2 "),
-        std::string::npos)
-        << pieces->advice;
+    const std::string advice = command_line_text(pieces->advice);
+    EXPECT_NE(advice.find("keep the largest (--keep-largest), or choose the CAD faces of one piece (--part): 1-2 (4 "
+                          "triangles, 40 x 10 x 0 mm) or 0 (2 "),
+              std::string::npos)
+        << advice;
     ReadOptions largest;
     largest.doctor.keep_largest = true;
     const PartFile kept = read_part(folder / "two.igs", largest);

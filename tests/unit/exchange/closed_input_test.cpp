@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
 #include "tests/support/seeded_random.h"
@@ -165,7 +166,8 @@ TEST(ClosedInput, SheetIsTakenHoweverThickForItsSize)
                 }
                 EXPECT_NEAR(part.solid->thickness, known.thickness, known.exact * known.thickness);
                 const bool doubt = std::any_of(part.doubts.begin(), part.doubts.end(), [](const std::string& text) {
-                    return text.find("hollow body") != std::string::npos && text.find("--seam") != std::string::npos;
+                    return text.find("hollow body") != std::string::npos &&
+                           text.find(mention(option::seam, "FILE")) != std::string::npos;
                 });
                 doubted += doubt;
                 EXPECT_FALSE(share <= 0.1 && doubt) << texts_of(part);
@@ -204,10 +206,10 @@ TEST(ClosedInput, SaysWhatItIsNotSureOf)
     EXPECT_TRUE(disk.doubts.empty());
     ASSERT_TRUE(tall.solid);
     ASSERT_EQ(tall.doubts.size(), 1u);
-    EXPECT_NE(tall.doubts[0].find("--seam"), std::string::npos);
+    EXPECT_NE(tall.doubts[0].find(mention(option::seam, "FILE")), std::string::npos);
     EXPECT_FALSE(taller.solid);
     ASSERT_EQ(taller.doubts.size(), 1u);
-    EXPECT_NE(taller.doubts[0].find("--skin"), std::string::npos);
+    EXPECT_NE(taller.doubts[0].find(mention(option::skin, "middle")), std::string::npos);
     const PartFile asked = examined(tin(34), Skin::outer);
     ASSERT_TRUE(asked.solid) << texts_of(asked);
     EXPECT_NEAR(asked.solid->thickness, 34, 1e-9);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/exchange/read_part.h"
+#include "engine/options/option.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -167,7 +168,7 @@ TEST_F(PartOfDeck, OfSeveralPartsTheMessageListsThem)
     for (const auto& s : strip.shell)
         two += fmt::format("{},11,{},{},{},{}\n", s.id + 1000, s.node[0] + 1000, s.node[1] + 1000, s.node[2] + 1000,
                            s.node.size() > 3 ? s.node[3] + 1000 : 0);
-    const std::string text = refusal(two);
+    const std::string text = command_line_text(refusal(two));
     EXPECT_NE(text.find("2 separate pieces"), std::string::npos) << text;
     EXPECT_NE(text.find("choose by id or name (--part):\n  7 Hood"), std::string::npos) << text;
     EXPECT_NE(text.find("11 other"), std::string::npos);

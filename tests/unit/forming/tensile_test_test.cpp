@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/material/fit_hardening.h"
+#include "engine/options/sheet_options.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -229,8 +230,10 @@ TEST(TensileTest, WhatCannotBeATensileTestIsRefusedWithItsLine)
     EXPECT_THAT(refused(""), HasSubstr("no row"));
     EXPECT_THAT(refused("engineering\nstrain;stress\n"), HasSubstr("no row"));
     EXPECT_THAT(refused(std::string("engineering\n0.1;2\0\n", 19)), HasSubstr("no text"));
-    EXPECT_THAT(refused(csv(steel, "strain;stress", ';')), HasSubstr("--data"));
-    EXPECT_THAT(refused(csv(steel, "true and engineering", ';')), HasSubstr("--data"));
+    EXPECT_THAT(refused(csv(steel, "strain;stress", ';')),
+                HasSubstr(mention(option::stress_measure, "engineering|true")));
+    EXPECT_THAT(refused(csv(steel, "true and engineering", ';')),
+                HasSubstr(mention(option::stress_measure, "engineering|true")));
     EXPECT_THAT(refused(csv(steel, "engineering strain;stress [GPa]", ';')), HasSubstr("gpa"));
     EXPECT_THAT(refused(csv(steel, "engineering strain;force [kN]", ';')), HasSubstr("MPa"));
     EXPECT_EQ(refused(csv(steel, "# load cell 10 kN, epsilon of the thickness\nengineering strain;stress", ';')),
@@ -248,7 +251,7 @@ TEST(TensileTest, WhatCannotBeATensileTestIsRefusedWithItsLine)
             plastic_only.strain.push_back(steel.strain[i]);
             plastic_only.stress.push_back(steel.stress[i]);
         }
-    EXPECT_THAT(refused(csv(plastic_only, "engineering", ';')), HasSubstr("--young"));
+    EXPECT_THAT(refused(csv(plastic_only, "engineering", ';')), HasSubstr(mention(option::young)));
     EXPECT_EQ(refused(csv(plastic_only, "engineering", ';'), {.young_MPa = young}), "no InputError");
     Bar soft = steel; // the strain of the machine's crosshead
     for (size_t i = 0; i < soft.strain.size(); ++i)

@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/halfedges.h"
 #include "engine/mesh/topology.h"
+#include "engine/options/part_options.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
 
@@ -242,7 +243,7 @@ TEST(Doctor, ThirdFaceAtAnEdgeIsFatalAndNamed)
     EXPECT_EQ(count(e, Fault::crowded_edge), 1);
     EXPECT_FALSE(e.report.genus.has_value());
     expect_refused(e, "between the vertices 1 and 4");
-    EXPECT_NE(e.report.find(Fault::crowded_edge)->advice.find("--keep-largest"), std::string::npos);
+    EXPECT_NE(e.report.find(Fault::crowded_edge)->advice.find(mention(option::keep_largest)), std::string::npos);
 }
 
 TEST(Doctor, WhoKeepsTheLargestIsNotAdvisedTo)
@@ -254,7 +255,7 @@ TEST(Doctor, WhoKeepsTheLargestIsNotAdvisedTo)
     soup.add_polygon(std::array<int, 3>{4, 5, 6});
     const Examination e = examine(soup, {.keep_largest = true});
     if (const Finding* crowded = e.report.find(Fault::crowded_edge))
-        EXPECT_EQ(crowded->advice.find("--keep-largest"), std::string::npos) << crowded->advice;
+        EXPECT_EQ(crowded->advice.find(mention(option::keep_largest)), std::string::npos) << crowded->advice;
     else
         ADD_FAILURE() << "nothing is crowded";
 }

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/curvature.h"
+#include "engine/options/part_options.h"
 #include "tests/support/bent_parts.h"
 #include "tests/unit/exchange/sample_meshes.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -32,7 +33,7 @@ TEST_F(ClosedCorners, AreSaidWithTheWayOut)
     EXPECT_EQ(corners->count, 4);
     EXPECT_EQ(corners->place.size(), 4u);
     EXPECT_THAT(corners->text, HasSubstr("up to 90 degrees at 4 corners"));
-    EXPECT_THAT(corners->advice, HasSubstr("--seam corners"));
+    EXPECT_THAT(corners->advice, HasSubstr(mention(option::seam, "corners")));
     EXPECT_TRUE(part.seam.empty()) << "nothing is cut unasked";
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/forming/material/material_library.h"
+#include "engine/options/surface_options.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/usual_tolerance.h"
@@ -66,8 +67,8 @@ TEST(SurfaceShortcomings, ASurfaceThatCutsCornersIsSaidWithTheWayOut)
         ASSERT_GT(session.surface->deviation.max(), usual_tolerance) << "the case is none any more; make another";
         const auto text = far_surface(session);
         ASSERT_TRUE(text) << slot;
-        EXPECT_THAT(*text, HasSubstr("--tolerance"));
-        EXPECT_THAT(*text, HasSubstr("--patches auto"));
+        EXPECT_THAT(*text, HasSubstr(mention(option::tolerance)));
+        EXPECT_THAT(*text, HasSubstr(mention(option::patches, "auto")));
         const auto all = shortcomings(session);
         EXPECT_EQ(std::count(all.begin(), all.end(), *text), 1);
     }
@@ -95,7 +96,7 @@ TEST(SurfaceShortcomings, AFoldIsSaidButNotACornerThatASmoothOutlineLacks)
     refusal.place.u = 0.5;
     changed(session).certificate.patch.at(0).refusal = refusal;
     ASSERT_TRUE(folded_surface(session));
-    EXPECT_THAT(*folded_surface(session), HasSubstr("--corners"));
+    EXPECT_THAT(*folded_surface(session), HasSubstr(mention(option::corners)));
     EXPECT_EQ(shortcomings(session).size(), 1u);
     changed(session).certificate.patch.at(0).refusal.reset();
     EXPECT_FALSE(folded_surface(session));
@@ -103,7 +104,7 @@ TEST(SurfaceShortcomings, AFoldIsSaidButNotACornerThatASmoothOutlineLacks)
     ASSERT_TRUE(folded_surface(session));
     EXPECT_THAT(*folded_surface(session), HasSubstr("0.20 %"));
     session.options.patches = LayoutOptions{};
-    EXPECT_THAT(*folded_surface(session), HasSubstr("--patches FILE"));
+    EXPECT_THAT(*folded_surface(session), HasSubstr(mention(option::patches, "FILE")));
 }
 
 } // namespace spia

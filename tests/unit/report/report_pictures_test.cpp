@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/options/part_options.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/report/report_samples.h"
 
@@ -30,14 +31,14 @@ TEST(ReportPictures, StandInTheReportWithItsOwnWords)
 {
     const ScratchFolder folder;
     Session session = session_of(dome, Stage::solve);
-    const std::vector<std::string> doubts = {"there is a gap of 25.4 mm; close it with --weld"};
+    const std::vector<std::string> doubts = {"there is a gap of 25.4 mm; close it with " + mention(option::weld)};
     ReportOptions options;
     options.reader.lengths = LengthUnit::inch;
     write_html_report(folder / "r.html", session, drawn_pictures(session), options, doubts);
     std::string html = content_of(folder / "r.html");
     EXPECT_NE(html.find("<figcaption>Part and flat blank: thinning</figcaption>"), std::string::npos);
     EXPECT_NE(html.find("There is a gap of 1 in; close it with --weld."), std::string::npos);
-    options.reader.words = [](const std::string& text) { return text.substr(0, text.find(';')); };
+    options.reader.words = [](std::string_view text) { return std::string(text.substr(0, text.find(';'))); };
     write_html_report(folder / "r.html", session, {}, options, doubts);
     html = content_of(folder / "r.html");
     EXPECT_NE(html.find("There is a gap of 1 in.<"), std::string::npos);

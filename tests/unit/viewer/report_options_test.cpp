@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/options/part_options.h"
 #include "tests/unit/viewer/viewer_samples.h"
 
 namespace spia::viewer {
@@ -36,9 +37,9 @@ TEST(ReportOptions, TheEngineIsToldTheWordsOfTheWindow)
     const ReportOptions options = report_options(chosen);
     EXPECT_EQ(options.title, "Door");
     EXPECT_EQ(options.tables, chosen.tables);
-    EXPECT_EQ(options.reader.told("a gap of 25.4 mm; join it with --weld"),
-              "a gap of 1 in; join it with \"Weld vertices\" in the step Part");
-    EXPECT_EQ(ReportReader{}.told("a gap of 25.4 mm; join it with --weld"), "a gap of 25.4 mm; join it with --weld");
+    const std::string text = "a gap of 25.4 mm; join it with " + mention(option::weld);
+    EXPECT_EQ(options.reader.told(text), "a gap of 1 in; join it with \"Weld vertices\" in the step Part");
+    EXPECT_EQ(ReportReader{}.told(text), "a gap of 25.4 mm; join it with --weld");
 }
 
 } // namespace spia::viewer

@@ -4,7 +4,8 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/state.h"
-#include "app/viewer/model/reports/viewer_words.h"
+#include "engine/options/option.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 namespace {
@@ -69,7 +70,7 @@ std::vector<std::string> notes_on_reading(const PartFile& part)
     std::vector<std::string> notes;
     for (const std::string& note : part.notes)
         if (std::find(part.doubts.begin(), part.doubts.end(), note) == part.doubts.end())
-            notes.push_back(sentence(in_viewer_words(note)));
+            notes.push_back(sentence(window_text(note)));
     return notes;
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/reports/grid_advice.h"
-#include "app/viewer/model/reports/viewer_words.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 

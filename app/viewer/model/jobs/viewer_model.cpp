@@ -7,10 +7,11 @@
 #include <mutex>
 
 #include "app/viewer/model/document/grades.h"
-#include "app/viewer/model/reports/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/options/option.h"
 #include "engine/report/text/lengths.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 
@@ -59,7 +60,7 @@ void ViewerModel::say(Severity severity, std::string text, Subject subject)
 
 void ViewerModel::say(Message message)
 {
-    message.text = sentence(in_viewer_words(std::move(message.text)));
+    message.text = sentence(window_text(message.text));
     message.number = ++messages_posted_;
     constexpr size_t most = 50;
     // said again, it is the newest once more

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/jobs/viewer_model.h"
-#include "app/viewer/model/reports/viewer_words.h"
 #include "engine/core/text.h"
 #include "engine/report/text/lengths.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 void ViewerModel::start_steps(std::string title, std::function<StepsOutcome(const Progress&, const StepsSoFar&)> work)

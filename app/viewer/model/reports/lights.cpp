@@ -14,11 +14,13 @@
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/smooth_joins.h"
+#include "engine/options/option.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/surface_shortcomings.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/text/lengths.h"
 #include "engine/report/text/number_text.h"
+#include "engine/report/text/sentence.h"
 #include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
@@ -63,7 +65,7 @@ Doubt with_click(ChainStep step, const std::string& text, const Document& docume
 {
     const Session& session = document.session;
     const auto about = [&](std::string_view words) { return text.find(words) != std::string::npos; };
-    Doubt doubt{step, sentence(in_viewer_words(text))};
+    Doubt doubt{step, sentence(window_text(text))};
     if (about("yields at") || about("mm thick: is that in mm"))
         doubt.step = ChainStep::sheet;
     else if (step == ChainStep::unfold && text == session.blank->report.reason) {
@@ -197,7 +199,7 @@ void judge_distance(const Document& document, LengthUnit lengths, std::vector<Do
     const SurfaceStage& surface = *document.session.surface;
     if (surface.fit) { // the engine says whether that is reached
         for (Doubt& doubt : doubts)
-            if (!surface.fit->reached && doubt.text == sentence(in_viewer_words(surface.fit->shortfall.text)))
+            if (!surface.fit->reached && doubt.text == sentence(window_text(surface.fit->shortfall.text)))
                 answer_shortfall(document, surface, lengths, doubt);
         return;
     }

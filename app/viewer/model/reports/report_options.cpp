@@ -1,12 +1,12 @@
 #include "app/viewer/model/reports/report_options.h"
 
-#include "app/viewer/model/reports/viewer_words.h"
+#include "engine/options/option.h"
 
 namespace spia::viewer {
 
 ReportOptions report_options(const ViewerReportOptions& options)
 {
-    return {options.title, options.remarks, options.tables, {options.lengths, in_viewer_words}};
+    return {options.title, options.remarks, options.tables, {options.lengths, window_text}};
 }
 
 ViewerState standard_look(const ViewerState& state)

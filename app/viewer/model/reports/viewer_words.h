@@ -2,12 +2,9 @@
 #include <string>
 
 #include "app/viewer/model/document/document.h"
-#include "engine/report/text/sentence.h"
+#include "engine/core/length_unit.h"
 
 namespace spia::viewer {
-
-/// What the engine advises, with the viewer's buttons in place of the flags of the command line.
-std::string in_viewer_words(std::string text);
 
 /// What the panel of steps calls a stage.
 const char* heading(Stage stage);

@@ -1,0 +1,142 @@
+#pragma once
+#include "engine/options/option.h"
+
+/// The grid on the blank, and the surface through it or within a tolerance.
+namespace spia::option {
+
+inline constexpr Option grid{.name = "grid",
+                             .value = "NxM",
+                             .help = "cells of the quad grid (default: automatic)",
+                             .label = "Cells",
+                             .place = "the step Corners and grid"};
+inline constexpr Option corners{.name = "corners",
+                                .value = "a,b,c,d",
+                                .help = "four vertices of the outer boundary, numbers as in the file, from 0",
+                                .place = "the corners in the step Corners and grid"};
+
+// A number of cells that is 0 follows from the other one.
+inline constexpr Option columns{
+    .name = "", .key = "columns", .range = Range{0, 2000}, .help = "cells along u", .label = "Columns"};
+inline constexpr Option rows{
+    .name = "", .key = "rows", .range = Range{0, 2000}, .help = "cells along v", .label = "Rows"};
+inline constexpr Option cells{.name = "",
+                              .key = "cells",
+                              .range = Range{1, 2000},
+                              .help = "cells along the longer sides, where they are square",
+                              .label = "Cells"};
+inline constexpr Option smoothing{.name = "",
+                                  .key = "smoothing",
+                                  .range = Range{0, 100'000},
+                                  .help = "how often the nodes of a Coons grid with folded cells are smoothed at most",
+                                  .label = "Smoothing"};
+inline constexpr Choice grid_methods[] = {
+    {"automatic", {}, "Coons, or harmonic where that folds"},
+    {"coons", "Coons", "lines blended between opposite sides as in the paper, smoothed where cells fold"},
+    {"harmonic", {}, "lines as heat would flow from side to side, without folded cells"}};
+inline constexpr Option grid_method{.name = "grid-method",
+                                    .key = "method",
+                                    .choices = grid_methods,
+                                    .help = "how the lines of the grid are laid",
+                                    .label = "Method"};
+inline constexpr Option line_grading{
+    .name = "to-bends",
+    .key = "to_bends",
+    .value = "0-0.9",
+    .range = Range{0, 0.9},
+    .help = "share of the lines of the grid that go where the part bends; the others lie evenly. Half of them suit a "
+            "flat part with narrow bends (of one patch only)",
+    .label = "Lines to bends"};
+inline constexpr Option even_cells{
+    .name = "even-cells",
+    .key = "even_cells",
+    .help = "move the inner nodes of the grid towards right angles; no cell folds on the way (of one patch only)",
+    .label = "Improve cell angles"};
+
+inline constexpr Option tolerance{
+    .name = "tolerance",
+    .key = "tolerance",
+    .value = "MM",
+    .range = Range{1e-9, 1e9},
+    .help = "mm, two-sided, between the surface and the part: least squares with knots where they are needed (default: "
+            "the surface through the nodes of the grid)",
+    .label = "Within a tolerance",
+    .place = "the step NURBS surface"};
+inline constexpr Option degree{.name = "degree",
+                               .value = "U[,V]",
+                               .range = Range{2, 5},
+                               .help = "of the surface along u and v, 2 to 5; one number for both",
+                               .label = "Degree"};
+inline constexpr Option degree_u{
+    .name = "", .key = "degree_u", .range = degree.range, .help = "of the surface along u"};
+inline constexpr Option degree_v{
+    .name = "", .key = "degree_v", .range = degree.range, .help = "of the surface along v"};
+inline constexpr Choice curve_ends[] = {
+    {"averaged", "free", "with the knots averaged from the data, accurate up to the border"},
+    {"clamped", "along the part", "with the slope estimated from the part, accurate up to the border"},
+    {"natural", {}, "without curvature at the border as in the paper (degree 3 only), less accurate there"}};
+inline constexpr Option ends{.name = "ends",
+                             .key = "ends",
+                             .choices = curve_ends,
+                             .help = "how the surface runs out at its borders",
+                             .label = "Borders"};
+inline constexpr Choice fit_parameter_choices[] = {{"blank"}, {"corrected"}};
+inline constexpr Option fit_parameters{
+    .name = "fit-parameters",
+    .key = "parameters",
+    .choices = fit_parameter_choices,
+    .help = "within a tolerance: those of the blank, or corrected: points slide along the surface while it is fitted, "
+            "which then needs fewer control points but gives up the places in the blank",
+    .label = "Fewer control points"};
+inline constexpr Option max_control_points{
+    .name = "max-control-points",
+    .key = "max_control_points",
+    .range = Range{16, 4'000'000},
+    .help = "of the surface within a tolerance: the fit ends there even if the tolerance is not reached",
+    .label = "Max control points",
+    .place = "the step NURBS surface"};
+inline constexpr Option fill_holes{
+    .name = "fill-holes",
+    .help = "the surface covers the holes of the part; else IGES and STEP have it trimmed by them (files for "
+            "isogeometric analysis cannot)"};
+inline constexpr Option deform{
+    .name = "deform",
+    .value = "FILE",
+    .help = "moves control points of the finished surface, or all of it by a lattice around it (JSON, "
+            "spia.deformation/1)"};
+
+inline constexpr Choice layouts[] = {{"one", {}, {}, "\"one patch\" in the step NURBS surface"},
+                                     {"auto", {}, {}, "\"several patches\" in the step NURBS surface"},
+                                     {"FILE", {}, {}, "pick their ends with the tool Vertex"}};
+inline constexpr Option patches{
+    .name = "patches",
+    .value = "auto|one|FILE",
+    .choices = layouts,
+    .help = "one patch over the blank with its holes filled, auto: four-sided patches around the holes and along sharp "
+            "edges, which share their sides, or a file {\"cuts\": [[12, 40], ...], \"corners\": [...], \"edge_deg\": "
+            "45, \"smooth_joins\": true}, vertices of the file",
+    .label = "Made of",
+    .place = "the step NURBS surface"};
+inline constexpr Option patch_edges{
+    .name = "patch-edges",
+    .key = "edge_deg",
+    .value = "DEG",
+    .range = Range{1, 180},
+    .help = "of patches: they end on edges over which the sheet turns more than this (45; 20 where the tolerance is "
+            "missed); 180: on none. Not where cuts or corners are given",
+    .label = "Edges from",
+    .place = "the step NURBS surface"};
+inline constexpr Option smooth_joins{
+    .name = "smooth-joins",
+    .key = "smooth_joins",
+    .help = "of patches: take the angles out of their joins, as far as the tolerance allows; edges of the part (joins "
+            "with more than 10 degrees) stay",
+    .label = "Smooth joins",
+    .place = "the step NURBS surface"};
+
+/// All of this file.
+inline constexpr const Option* of_surfaces[] = {
+    &grid,       &corners,   &columns, &rows,        &cells,       &smoothing, &grid_method,    &line_grading,
+    &even_cells, &tolerance, &degree,  &degree_u,    &degree_v,    &ends,      &fit_parameters, &max_control_points,
+    &fill_holes, &deform,    &patches, &patch_edges, &smooth_joins};
+
+} // namespace spia::option
