@@ -220,8 +220,7 @@ double outline_over_square(const GridContext& context)
     return length / (4 * std::sqrt(std::max(area, 1e-300)));
 }
 
-[[noreturn]] void throw_impossible(const GridContext& context, const GridResult& grid,
-                                   const std::vector<int>& file_number)
+[[noreturn]] void throw_impossible(const GridContext& context, const GridResult& grid, std::span<const int> file_number)
 {
     const auto number = [&](int v) { return file_number.empty() ? v : file_number[size_t(v)]; };
     const auto& corner = context.boundary.corner;
@@ -316,7 +315,8 @@ void add_map_attempts(std::vector<PlannedAttempt>& attempts, GridContext& contex
     }
 }
 
-GridResult sound_grid(GridContext& context, const GridOptions& options, const Progress& progress)
+GridResult sound_grid(GridContext& context, const GridOptions& options, const Progress& progress,
+                       std::span<const int> file_number)
 {
     int columns = 0, rows = 0;
     choose_counts(context, options, columns, rows);
@@ -345,14 +345,14 @@ GridResult sound_grid(GridContext& context, const GridOptions& options, const Pr
     }
     grid.attempts = try_in_order(attempts);
     if (!is_sound(grid) && options.method != GridMethod::coons)
-        throw_impossible(context, grid, options.file_number);
+        throw_impossible(context, grid, file_number);
     return grid;
 }
 
 } // namespace
 
 GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBoundary& boundary,
-                      const GridOptions& options, const Progress& progress)
+                      const GridOptions& options, const Progress& progress, std::span<const int> file_number)
 {
     if (!(options.line_grading >= 0 && options.line_grading <= 0.9))
         throw InputError("the share of the lines that go to bends must be from 0 to 0.9");
@@ -360,7 +360,7 @@ GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBounda
     progress.checkpoint(0.1, "searching the blank");
     GridContext context{filled, boundary, BlankSearch(*filled)};
     const bool adapt = options.line_grading > 0 || options.even_cells;
-    GridResult grid = sound_grid(context, options, adapt ? progress.part(0, 0.7) : progress);
+    GridResult grid = sound_grid(context, options, adapt ? progress.part(0, 0.7) : progress, file_number);
     if (is_sound(grid)) { // the Coons patch may be asked for as it is
         if (options.line_grading > 0)
             grade_lines(context.blank, boundary, options.line_grading, grid, progress.part(0.7, 0.8));

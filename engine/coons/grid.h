@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -28,12 +29,12 @@ struct GridOptions {
     int cells = 40;     ///< on the longer sides, where columns or rows is 0
     int smoothing = 50; ///< the most Laplacian sweeps over a Coons patch that folds
     GridMethod method = GridMethod::automatic;
-    double line_grading = 0;           ///< share of the lines that go where the part bends, 0 to
-                                       ///< 0.9: see grade_lines()
-    bool even_cells = false;           ///< right angles and even sizes inside, where the grid stays
-                                       ///< sound: see even_cells()
-    std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as
-                                       ///< in the mesh
+    double line_grading = 0; ///< share of the lines that go where the part bends, 0 to
+                             ///< 0.9: see grade_lines()
+    bool even_cells = false; ///< right angles and even sizes inside, where the grid stays
+                             ///< sound: see even_cells()
+
+    friend bool operator==(const GridOptions&, const GridOptions&) = default;
 };
 
 /// Which way the grid came about.
@@ -70,10 +71,12 @@ struct GridResult {
 /// last spiral_grid(), on up to 640 x 640 cells if they are. Holes of the part are filled for this.
 /// A sound grid is then adapted as the options ask.
 /// @param boundary of the same blank, see split_boundary()
+/// @param file_number  per vertex of the part its number in messages; empty: as in the mesh
 /// @throws InputError if every way folds a cell; the message says at which corner, and what to
 /// choose instead;
 ///         also if the part is not one piece without handles
 GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBoundary& boundary,
-                      const GridOptions& options = {}, const Progress& progress = {});
+                      const GridOptions& options = {}, const Progress& progress = {},
+                      std::span<const int> file_number = {});
 
 } // namespace spia

@@ -72,7 +72,7 @@ Eigen::Matrix2Xd first_guess(const TriMesh& part, const std::vector<Element>& el
 
 /// @param start none: a first guess of its own
 FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* start, const LaidLengths& laid,
-                           const FlattenOptions& options, const Progress& progress)
+                           const FlattenOptions& options, const Progress& progress, const StepWatch& watch)
 {
     const auto clock = std::chrono::steady_clock::now();
     require_valid(original, options);
@@ -99,7 +99,7 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
                                      : first_guess(part, element, matrix, cholesky, progress, result);
 
     const SolveContext context{
-        part, element, options, external, plane, matrix, cholesky, false, pull_of(external, part, options)};
+        part, element, options, external, plane, matrix, cholesky, false, pull_of(external, part, options), watch};
     result.blank.position = solve(context, X, result.report, progress.part(0.1, 1));
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place(context, result.blank.position);
@@ -140,21 +140,29 @@ std::string_view name(SolvedSystem system)
     return "";
 }
 
-FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress)
+bool formed_alike(const FlattenOptions& a, const FlattenOptions& b)
 {
-    return flatten_part(part, nullptr, {}, options, progress);
+    FlattenOptions of_the_same_grade = a;
+    of_the_same_grade.material = b.material;
+    return formed_alike(a.material, b.material) && of_the_same_grade == b;
+}
+
+FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress,
+                      const StepWatch& watch)
+{
+    return flatten_part(part, nullptr, {}, options, progress, watch);
 }
 
 FlattenResult flatten_from(const TriMesh& part, const Eigen::Matrix2Xd& start, const FlattenOptions& options,
-                           const Progress& progress)
+                           const Progress& progress, const StepWatch& watch)
 {
-    return flatten_part(part, &start, {}, options, progress);
+    return flatten_part(part, &start, {}, options, progress, watch);
 }
 
 FlattenResult flatten_laid(const TriMesh& part, const LaidLengths& laid, const Eigen::Matrix2Xd* start,
-                           const FlattenOptions& options, const Progress& progress)
+                           const FlattenOptions& options, const Progress& progress, const StepWatch& watch)
 {
-    return flatten_part(part, start, laid, options, progress);
+    return flatten_part(part, start, laid, options, progress, watch);
 }
 
 } // namespace spia

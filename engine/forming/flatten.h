@@ -28,8 +28,13 @@ struct FlattenOptions {
     int most_energy_steps = 200;
     int most_newton_steps = 60;
     double tolerance = 1e-8; ///< on |R| relative to the nodal forces at the yield stress
-    StepWatch watch = {};    ///< sees the blank while it converges
+
+    friend bool operator==(const FlattenOptions&, const FlattenOptions&) = default;
 };
+
+/// Whether the same blank comes of both: their grades may differ in name, source and forming
+/// limits.
+bool formed_alike(const FlattenOptions& a, const FlattenOptions& b);
 
 /// Which equations the blank fulfils.
 enum class SolvedSystem {
@@ -87,12 +92,14 @@ struct FlattenResult {
 /// Finds the flat blank that one forming step turns into the part.
 /// @param part      mm; one component, at least one boundary loop, no handles (cut_open() sees to it), no face without area
 /// @param progress  one checkpoint per iteration; cancelling takes effect at the next one
+/// @param watch     sees the blank while it converges
 /// @throws InputError  if the part or an option is not as described; names the first offending face
 /// @throws SolveError if there is no flip-free state at all, or none that can be told in the part's
 /// coordinates If the virtual-work system does not converge, the hardening curve is continued from
 /// the uniform strain on and equations that the mesh cannot bear are relaxed; if that fails too,
 /// the blank of the energy stage (thickness held) is given. The report says so. The result does not
 /// depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
-FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress = {});
+FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress = {},
+                      const StepWatch& watch = {});
 
 } // namespace spia

@@ -101,6 +101,8 @@ struct DoctorOptions {
     bool keep_largest = false;           ///< leave out all but the largest piece, and what hangs on
                                          ///< edges of three faces
     double sliver_angle_deg = 1;         ///< a triangle with a smaller angle is noted
+
+    friend bool operator==(const DoctorOptions&, const DoctorOptions&) = default;
 };
 
 /// A soup turned into a mesh, and what was found on the way.

@@ -24,6 +24,8 @@ struct InterpolateOptions {
     Ends ends = Ends::averaged_knots;
     Parameters parameters = Parameters::chord;
     int degree_u = 3, degree_v = 3; ///< 2 to 5; nodes - 1 where a direction has too few
+
+    friend bool operator==(const InterpolateOptions&, const InterpolateOptions&) = default;
 };
 
 struct InterpolateResult {

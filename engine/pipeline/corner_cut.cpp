@@ -66,7 +66,6 @@ std::shared_ptr<const CornerCut> corner_cut(const PartFile& part, const FlattenR
     free.process = {};
     free.process.rolling = options.process.rolling;
     free.skins = false;
-    free.watch = nullptr; // who looks on sees the blank with the cuts
     try {
         result->before = figures(before, flatten(before, free, progress).face);
     } catch (const Cancelled&) {

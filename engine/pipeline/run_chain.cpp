@@ -10,9 +10,10 @@ namespace spia {
 namespace {
 
 /// @returns the session with the result of the stage, the surface deformed as is wished
-Session made(Stage stage, const Session& before, const ChainWishes& wishes, const Progress& progress)
+Session made(Stage stage, const Session& before, const ChainWishes& wishes, const Progress& progress,
+             const StepWatch& watch)
 {
-    Session session = run_stage(stage, before, progress);
+    Session session = run_stage(stage, before, progress, watch);
     if (stage != Stage::fit || !wishes.deformation)
         return session;
     session.options.deformation = deformation_of(*wishes.deformation, fitted_patches(*session.surface));
@@ -32,7 +33,7 @@ void take_wishes_of_part(Session& session, const ChainWishes& wishes)
 /// One stage, and what follows from it before the next.
 void pass(Stage stage, Session& session, const ChainWishes& wishes, const ChainHooks& hooks)
 {
-    session = made(stage, session, wishes, hooks.begins ? hooks.begins(stage) : Progress());
+    session = made(stage, session, wishes, hooks.begins ? hooks.begins(stage) : Progress(), hooks.watch);
     if (hooks.ended)
         hooks.ended(stage, session);
     if (stage != Stage::read)

@@ -31,6 +31,8 @@ struct ChainHooks {
     std::function<Progress(Stage)> begins;
     /// The stage has its result, and `session.seconds` its time.
     std::function<void(Stage, const Session& session)> ended;
+    /// Sees the blank while it is solved for.
+    StepWatch watch = {};
     /// The part is read and the wishes of it are in the options; the next stage has not begun.
     std::function<void(const Session& session)> part_is_ready;
 };

@@ -137,7 +137,7 @@ std::optional<Eigen::Vector2d> rolling_on_steps(const ProcessConditions& process
 /// Steps know nothing of the neutral fibre. Where they only bend the sheet, the blank is solved
 /// again with its lengths.
 void lay_steps_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& fibre, FlattenResult& flat,
-                    const Progress& progress)
+                    const Progress& progress, const StepWatch& watch)
 {
     if (fibre.laid.empty())
         return;
@@ -148,7 +148,7 @@ void lay_steps_anew(const TriMesh& part, const FlattenOptions& options, NeutralF
     }
     SolveReport of_steps = std::move(flat.report);
     StampingDirection stamping = std::move(flat.stamping);
-    flat = relaid_blank(part, flat.blank.position, fibre.laid, options, progress);
+    flat = relaid_blank(part, flat.blank.position, fibre.laid, options, progress, watch);
     flat.stamping = std::move(stamping);
     lay_straight(part, rolling_on_steps(options.process), flat);
     if (flat.report.whole())
@@ -156,16 +156,16 @@ void lay_steps_anew(const TriMesh& part, const FlattenOptions& options, NeutralF
 }
 
 /// Who looks on sees every shape straight, as the result will lie.
-/// @param part   outlives the options
+/// @param part   outlives the watch
 /// @param start  of the solve, if it has one: the blank of steps
-FlattenOptions watched_straight(const TriMesh& part, FlattenOptions options, const Blank* start)
+StepWatch straightened(const StepWatch& watch, const TriMesh& part, const FlattenOptions& options, const Blank* start)
 {
-    if (!options.watch)
-        return options;
-    options.watch = [&part, watch = options.watch, process = options.process, chosen = options.direction,
-                     lain = start ? std::optional(start->position) : std::nullopt,
-                     straight = std::make_shared<std::optional<LiveUpright>>()](const Eigen::Matrix2Xd& X,
-                                                                                const NewtonStep& step) {
+    if (!watch)
+        return watch;
+    return [&part, watch, process = options.process, chosen = options.direction,
+            lain = start ? std::optional(start->position) : std::nullopt,
+            straight = std::make_shared<std::optional<LiveUpright>>()](const Eigen::Matrix2Xd& X,
+                                                                       const NewtonStep& step) {
         if (!*straight) { // only now the part is known to be sound
             const auto plane = blank_plane((chosen ? seen_along(part, *chosen) : stamping_direction(part)).direction);
             straight->emplace(part, lain ? *lain : Eigen::Matrix2Xd(plane.transpose() * part.position),
@@ -173,15 +173,15 @@ FlattenOptions watched_straight(const TriMesh& part, FlattenOptions options, con
         }
         watch((**straight)(X), step);
     };
-    return options;
 }
 
-void solve(Session& session, const Progress& whole)
+void solve(Session& session, const Progress& whole, const StepWatch& onlooker)
 {
     const TriMesh& part = session.part->mesh;
     const auto& steps = session.options.steps;
-    const FlattenOptions options =
-        watched_straight(part, session.options.flatten, steps && steps->run->blank ? &*steps->run->blank : nullptr);
+    const FlattenOptions& options = session.options.flatten;
+    const StepWatch watch =
+        straightened(onlooker, part, options, steps && steps->run->blank ? &*steps->run->blank : nullptr);
     const bool twice =
         session.options.read.seam.mode == SeamOptions::Mode::corners && !session.part->seam.empty() && !steps;
     const Progress progress = whole.part(0, twice ? 0.5 : 1);
@@ -192,20 +192,20 @@ void solve(Session& session, const Progress& whole)
         require_no_tools(options.process);
         progress.checkpoint(0, "taking the blank of the steps");
         if (steps->polish) {
-            flat = polish(part, *steps->run, options, progress).whole;
+            flat = polish(part, *steps->run, options, progress, watch).whole;
             lay_straight(part, rolling_on_steps(options.process), flat);
         } else
             flat = stepped_blank(part, *steps->run, options);
-        lay_steps_anew(part, options, fibre, flat, progress);
+        lay_steps_anew(part, options, fibre, flat, progress, watch);
     } else {
-        flat = flatten_laid(part, fibre.laid, nullptr, options, progress);
+        flat = flatten_laid(part, fibre.laid, nullptr, options, progress, watch);
         lay_straight(part, rolling_on(part, options.process, flat), flat);
     }
     place_on_blank(fibre, part, flat.blank);
     add_sharp_folds(*session.part, flat.blank, fibre.table);
     if (twice) {
         whole.checkpoint(0.5, "unfolding with the corners joined, to compare");
-        session.corner_cut = corner_cut(*session.part, flat, session.options.flatten, whole.part(0.5, 1));
+        session.corner_cut = corner_cut(*session.part, flat, options, whole.part(0.5, 1));
     }
     session.blank = std::make_shared<FlattenResult>(std::move(flat));
     session.bends = std::make_shared<BendTable>(std::move(fibre.table));
@@ -218,9 +218,7 @@ void grid(Session& session, const Progress& progress)
     const auto corners = session.options.corners ? corners_on_outline(*session.part, blank, *session.options.corners)
                                                  : propose_corners(blank, part);
     BlankBoundary boundary = split_boundary(blank, part, corners, session.part->source_vertex);
-    GridOptions options = session.options.grid;
-    options.file_number = session.part->source_vertex;
-    GridResult result = coons_grid(part, blank, boundary, options, progress);
+    GridResult result = coons_grid(part, blank, boundary, session.options.grid, progress, session.part->source_vertex);
     session.grid = std::make_shared<GridStage>(GridStage{std::move(boundary), std::move(result)});
 }
 
@@ -459,7 +457,7 @@ Session judge_limits(Session session)
     return session;
 }
 
-Session run_stage(Stage stage, Session session, const Progress& progress)
+Session run_stage(Stage stage, Session session, const Progress& progress, const StepWatch& watch)
 {
     const auto clock = std::chrono::steady_clock::now();
     if (stage <= Stage::fit) {
@@ -486,7 +484,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
     case Stage::read: read(session, progress); break;
     case Stage::solve:
         require(session.part != nullptr, "read a part");
-        solve(session, progress);
+        solve(session, progress, watch);
         session = judge_limits(std::move(session));
         break;
     case Stage::grid:

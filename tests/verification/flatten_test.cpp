@@ -234,15 +234,14 @@ TEST(Flatten, SaysWhereTheBlankLiesOnItself)
 TEST(Flatten, ShowsTheBlankWhileItConverges)
 {
     const TriMesh part = shapes::square_cup({.triangles = 2000});
-    FlattenOptions options = mild_steel();
     std::vector<double> seen;
     Eigen::Matrix2Xd last;
-    options.watch = [&](const Eigen::Matrix2Xd& blank, const NewtonStep& step) {
+    const auto watch = [&](const Eigen::Matrix2Xd& blank, const NewtonStep& step) {
         EXPECT_EQ(flipped_triangles(part.triangle, blank), 0);
         seen.push_back(step.residual);
         last = blank;
     };
-    const FlattenResult result = flatten(part, options);
+    const FlattenResult result = flatten(part, mild_steel(), {}, watch);
     ASSERT_EQ(seen.size(), result.report.energy.size() + result.report.newton.size());
     EXPECT_EQ(seen.back(), result.report.residual);
     EXPECT_LT(distance(last, result.blank.position), 1e-9);

@@ -78,6 +78,8 @@ public:
                                           ///< kappa sigma
         double yield_smoothing = 0.3;     ///< the elastic-plastic kink is rounded over [1 - s, 1 +
                                           ///< s] times its strain
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     StressCurve(const Hardening& law, double young_MPa, const Options& options);

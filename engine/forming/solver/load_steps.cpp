@@ -33,7 +33,7 @@ std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eige
     }
     const Sheet sheet = sheet_with(context, Curve::continued);
     EquilibriumOptions newton{std::min(30, context.options.most_newton_steps), context.options.tolerance,
-                              context.options.watch};
+                              context.watch};
     newton.allow_lu = false;
     newton.stall_steps = 25;
     // Until one hundredth of what is reached was too much, however much was asked for.

@@ -43,7 +43,7 @@ EnergyResult energy_stage(const SolveContext& context, Curve curve, Eigen::Matri
     for (size_t level = 0; level < shares.size(); ++level) {
         EnergyOptions energy;
         energy.most_steps = most_steps;
-        energy.watch = context.options.watch;
+        energy.watch = context.watch;
         if (context.anchored)
             energy.held = context.external.held;
         energy.decrement = level + 1 == shares.size() ? decrement : rough;
@@ -170,9 +170,9 @@ bool near_each_other(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
     return (a - b).colwise().norm().maxCoeff() <= near * (b.rowwise().maxCoeff() - b.rowwise().minCoeff()).norm();
 }
 
-EquilibriumOptions newton_of(const FlattenOptions& options)
+EquilibriumOptions newton_of(const SolveContext& context)
 {
-    return {options.most_newton_steps, options.tolerance, options.watch};
+    return {context.options.most_newton_steps, context.options.tolerance, context.watch};
 }
 
 EquilibriumOptions quick(EquilibriumOptions newton)
@@ -196,7 +196,7 @@ std::optional<Eigen::Matrix2Xd> as_asked_for(const SolveContext& context, const 
     if (energy.ended != Ended::converged)
         return std::nullopt;
     std::optional<Eigen::Matrix2Xd> solved =
-        strict_equilibrium(context, energy.position, newton_of(context.options), report, own, progress.part(0.3, 1));
+        strict_equilibrium(context, energy.position, newton_of(context), report, own, progress.part(0.3, 1));
     obstacle = fmt::format("the equations stalled at a residual of {:.1e}", report.residual);
     return solved;
 }
@@ -246,7 +246,7 @@ private:
         const int vertices = context_.part.vertices();
         EquilibriumResult result =
             solve_relaxed_equilibrium(context_.part, context_.element, work_, energy_.position, context_.matrix,
-                                      context_.cholesky, newton_of(context_.options), progress);
+                                      context_.cholesky, newton_of(context_), progress);
         take(result, report_);
         own.within = std::move(result.attempts);
         own.reason = describe(result);
@@ -268,7 +268,7 @@ private:
         SolveReport again = report_;
         again.trusted_strain = trusted_strain(context_, Curve::given, context_.options.material.hardening);
         std::optional<Eigen::Matrix2Xd> given =
-            strict_equilibrium(context_, *solved_, quick(newton_of(context_.options)), again, own, progress);
+            strict_equilibrium(context_, *solved_, quick(newton_of(context_)), again, own, progress);
         if (given && near_each_other(*given, *solved_)) {
             report_ = std::move(again);
             solved_ = std::move(given);
@@ -319,7 +319,7 @@ Eigen::Matrix2Xd solve_at_once(const SolveContext& context, Eigen::Matrix2Xd X, 
             place(context, placed);
             context.external.stuck = stuck_places(context.part, context.element, context.external, placed);
         }
-        solved = strict_equilibrium(context, X, quick(newton_of(options)), report, own, progress.part(0.2, 0.4));
+        solved = strict_equilibrium(context, X, quick(newton_of(context)), report, own, progress.part(0.2, 0.4));
         return solved.has_value();
     };
     const auto from_its_energy = [&](AttemptReport& own) {

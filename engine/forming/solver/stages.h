@@ -29,6 +29,7 @@ struct SolveContext {
     bool anchored = false; ///< the start has the held vertices of `external` at their places: from
                            ///< the energy stage on they stay
     double pull = 0;       ///< see pull_of()
+    StepWatch watch = {};  ///< sees every step
 };
 
 /// How hard the tools can pull, as a share of what tears the sheet: all their forces over the lock

@@ -89,7 +89,8 @@ std::vector<std::string> worse_in(const BlankFigures& steps, const BlankFigures&
 
 } // namespace
 
-PolishedBlank polish(const TriMesh& part, const UnfoldRun& run, const FlattenOptions& options, const Progress& progress)
+PolishedBlank polish(const TriMesh& part, const UnfoldRun& run, const FlattenOptions& options, const Progress& progress,
+                     const StepWatch& watch)
 {
     if (!run.blank)
         throw InputError(
@@ -99,7 +100,7 @@ PolishedBlank polish(const TriMesh& part, const UnfoldRun& run, const FlattenOpt
                                      counted(run.flipped, "flipped triangle", "flipped triangles")));
     const Eigen::Matrix2Xd& before = run.blank->position;
     const bool converged = std::all_of(run.states.begin(), run.states.end(), [](const auto& s) { return s.converged; });
-    PolishedBlank result{flatten_from(part, before, options, progress), {}, {}, 0, 0, {}};
+    PolishedBlank result{flatten_from(part, before, options, progress, watch), {}, {}, 0, 0, {}};
     Eigen::Matrix2Xd& after = result.whole.blank.position;
     lay_onto(part, before, after);
     result.steps = figures(part, before, run.states.back().face, converged);

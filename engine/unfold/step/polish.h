@@ -38,6 +38,6 @@ struct PolishedBlank {
 /// @throws InputError if the run gave no blank, or one with flipped triangles; SolveError as
 /// flatten()
 PolishedBlank polish(const TriMesh& part, const UnfoldRun& run, const FlattenOptions& options,
-                     const Progress& progress = {});
+                     const Progress& progress = {}, const StepWatch& watch = {});
 
 } // namespace spia

@@ -5,9 +5,9 @@
 namespace spia {
 
 FlattenResult relaid_blank(const TriMesh& part, const Eigen::Matrix2Xd& flat, const LaidLengths& laid,
-                           const FlattenOptions& options, const Progress& progress)
+                           const FlattenOptions& options, const Progress& progress, const StepWatch& watch)
 {
-    FlattenResult result = flatten_laid(part, laid, &flat, options, progress);
+    FlattenResult result = flatten_laid(part, laid, &flat, options, progress, watch);
     // Turned and moved onto the other, vertex by vertex. [Kabsch 1976 in the plane]
     Eigen::Matrix2Xd& X = result.blank.position;
     const Eigen::Vector2d to = flat.rowwise().mean(), from = X.rowwise().mean();

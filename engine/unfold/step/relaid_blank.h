@@ -7,7 +7,7 @@ namespace spia {
 /// in steps.
 /// @param flat  2 by #V, mm, as for flatten_from()
 FlattenResult relaid_blank(const TriMesh& part, const Eigen::Matrix2Xd& flat, const LaidLengths& laid,
-                           const FlattenOptions& options, const Progress& progress = {});
+                           const FlattenOptions& options, const Progress& progress = {}, const StepWatch& watch = {});
 
 /// Up to this equivalent strain a blank made in steps is laid anew: more is not that of bending
 /// alone, and belongs to the steps.

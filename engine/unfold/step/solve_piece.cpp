@@ -41,7 +41,6 @@ FlattenOptions options_of(const FreedPiece& piece, FlattenOptions options)
     options.process.tailored = std::move(tailored);
     options.direction.reset();
     options.skins = false;
-    options.watch = {};
     return options;
 }
 

@@ -51,8 +51,8 @@ double turn_between(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
 std::vector<Eigen::Matrix2Xd> pictures_of(Session session)
 {
     std::vector<Eigen::Matrix2Xd> seen;
-    session.options.flatten.watch = [&](const Eigen::Matrix2Xd& X, const NewtonStep&) { seen.push_back(X); };
-    session = run_stage(Stage::solve, run_stage(Stage::read, session));
+    session = run_stage(Stage::solve, run_stage(Stage::read, session), {},
+                        [&](const Eigen::Matrix2Xd& X, const NewtonStep&) { seen.push_back(X); });
     seen.push_back(session.blank->blank.position);
     return seen;
 }

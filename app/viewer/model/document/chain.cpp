@@ -11,25 +11,6 @@
 namespace spia::viewer {
 namespace {
 
-bool same(const ReadOptions& a, const ReadOptions& b)
-{
-    return a.unit == b.unit && a.weld == b.weld && a.doctor.weld_gap == b.doctor.weld_gap &&
-           a.doctor.keep_largest == b.doctor.keep_largest && a.seam == b.seam && a.parts == b.parts &&
-           a.skin == b.skin && a.cad == b.cad && a.remesh == b.remesh;
-}
-
-bool same(const FlattenOptions& a, const FlattenOptions& b)
-{
-    return formed_alike(a.material, b.material) && a.thickness == b.thickness && a.direction == b.direction &&
-           a.process == b.process && a.skins == b.skins;
-}
-
-bool same(const GridOptions& a, const GridOptions& b)
-{
-    return a.columns == b.columns && a.rows == b.rows && a.cells == b.cells && a.smoothing == b.smoothing &&
-           a.method == b.method && a.line_grading == b.line_grading && a.even_cells == b.even_cells;
-}
-
 /// The part to be looked at, if its mesh is sick; null if the file cannot be read at all.
 std::shared_ptr<const PartFile> refused_part(const Session& session, const Progress& progress)
 {
@@ -92,7 +73,7 @@ bool blank_holds(const Document& document)
     if (wanted.steps != made.steps || wanted.k_factor != made.k_factor)
         return false;
     return made.steps ? holds(document, *made.steps) && wanted.flatten.skins == made.flatten.skins
-                      : same(wanted.flatten, made.flatten);
+                      : formed_alike(wanted.flatten, made.flatten);
 }
 
 } // namespace
@@ -118,7 +99,7 @@ std::optional<Stage> first_stale(const Document& document)
 {
     const Session& session = document.session;
     const SessionOptions &wanted = session.options, &made = document.made_with;
-    if (!session.part || !same(wanted.read, made.read))
+    if (!session.part || wanted.read != made.read)
         return Stage::read;
     if (!session.blank || !blank_holds(document))
         return Stage::solve;
@@ -126,7 +107,7 @@ std::optional<Stage> first_stale(const Document& document)
         return session.surface && wanted.patches == made.patches && fit_choice(wanted) == fit_choice(made)
                    ? std::nullopt
                    : std::optional(Stage::fit);
-    if (!session.grid || wanted.corners != made.corners || !same(wanted.grid, made.grid))
+    if (!session.grid || wanted.corners != made.corners || wanted.grid != made.grid)
         return Stage::grid;
     if (!session.lifted)
         return Stage::lift;
@@ -158,13 +139,14 @@ std::string out_of_date(const Document& document)
 }
 
 ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
-                         const std::function<void(const ChainResult&)>& ended)
+                         const std::function<void(const ChainResult&)>& ended, const StepWatch& watch)
 {
     ChainResult result;
     result.session = std::move(session);
     result.session.options.deformation.reset(); // of the surface that comes of it, not of the chain
     result.made_with = std::move(made_with);
     ChainHooks hooks;
+    hooks.watch = watch;
     hooks.begins = [&](Stage stage) { return progress_of(stage, from, to, progress); };
     hooks.ended = [&](Stage stage, const Session& made) {
         result.session = made;

@@ -42,8 +42,9 @@ double share_of_time(Stage from, Stage to);
 /// a cancelled or failed run has finished is kept. The deformation of the session is left out: it
 /// is of the surface that there was.
 /// @param ended  called on this thread after every stage, with all that has been finished so far
+/// @param watch  sees the blank while it is solved for, on this thread
 ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
-                         const std::function<void(const ChainResult&)>& ended = {});
+                         const std::function<void(const ChainResult&)>& ended = {}, const StepWatch& watch = {});
 
 /// What to do about a stage that failed, in one sentence. @param options that it was to be made
 /// with

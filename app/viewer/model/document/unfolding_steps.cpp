@@ -21,17 +21,11 @@
 namespace spia::viewer {
 namespace {
 
-bool same_sheet(const FlattenOptions& a, const FlattenOptions& b)
-{
-    return formed_alike(a.material, b.material) && a.thickness == b.thickness &&
-           a.process.tailored == b.process.tailored && a.process.rolling == b.process.rolling;
-}
-
 /// Whether the last run was about this part in this sheet.
 bool run_is_about(const Document& document)
 {
     return document.unfolding && document.unfolding->part == document.session.part &&
-           same_sheet(document.unfolding->sheet, document.session.options.flatten);
+           formed_alike(document.unfolding->sheet, sheet_of_steps(document.session.options.flatten));
 }
 
 std::optional<StepFigures::Hinge> hinge_of(const UnfoldState& state, const PlannedStep& step, const TriMesh& part)
@@ -274,7 +268,7 @@ StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBe
         progress.checkpoint(0, "finding the bends");
         outcome.bends = bends = bends_of(part, std::move(bends));
         AutomaticUnfolding begun;
-        if (before && before->part == part && same_sheet(before->sheet, sheet)) {
+        if (before && before->part == part && formed_alike(before->sheet, sheet)) {
             begun.sequence.steps = script_of(before->steps);
             begun.run = before->run;
         }

@@ -51,7 +51,6 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
         return;
     Document& document = state_.document;
     const bool had_blank = document.session.blank != nullptr;
-    result.made_with.flatten.watch = nullptr;
     const Session before = document.session;
     const LaterResults quads = quads_shown(state_), surface = surface_shown(state_);
     for (const std::string& lost : take_over(document, result))

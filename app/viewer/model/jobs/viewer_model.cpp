@@ -106,9 +106,6 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
         session.options.flatten = sheet_of_steps(session.options.flatten);
         session.options.flatten.skins = skins;
     }
-    session.options.flatten.watch = [live = live_](const Eigen::Matrix2Xd& X, const NewtonStep& step) {
-        live->see(X, step);
-    };
     if (dragging_) {
         constexpr int few = 14;
         session.options.grid.columns = session.options.grid.rows = 0;
@@ -120,11 +117,10 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
     chain_job_ = std::make_unique<Job<ChainResult>>(
         [session = std::move(session), made_with = document.made_with, from, to,
          live = live_](const Progress& progress) {
-            return run_and_note(session, made_with, from, to, progress, [&](ChainResult result) {
-                // They hold what holds this mailbox: neither would ever be freed.
-                result.session.options.flatten.watch = result.made_with.flatten.watch = nullptr;
-                live->so_far.post(std::move(result));
-            });
+            return run_and_note(
+                session, made_with, from, to, progress,
+                [&](ChainResult result) { live->so_far.post(std::move(result)); },
+                [&](const Eigen::Matrix2Xd& X, const NewtonStep& step) { live->see(X, step); });
         },
         wake_);
 }
