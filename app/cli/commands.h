@@ -43,12 +43,12 @@ struct RunArguments {
     std::string k_factor;                            ///< a number, a name or a file; empty: 0.5
     std::vector<std::string> parts;                  ///< of a solver deck, ids or names
     std::optional<double> thickness;                 ///< mm; not given: that of the part, else 1
-    std::string grid;                                ///< NxM; empty: automatic
+    std::string cells;                               ///< NxM; empty: automatic
     std::vector<int> corners;
     std::vector<double> direction, rolling;
-    double line_grading = 0; ///< share of the lines of the grid
-    bool even_cells = false;
-    std::string grid_method = "automatic", ends = "averaged", fit_parameters = "blank";
+    GridOptions grid; ///< without the numbers of cells
+    CurveEnds ends = CurveEnds::averaged_knots;
+    FitParameters fit_parameters = FitParameters::blank;
     std::optional<double> tolerance;  ///< mm, of the surface; not given: it runs through the grid
     std::vector<int> degree = {3, 3}; ///< of the surface, along u and v
     int max_control_points = FitOptions{}.max_control_points;

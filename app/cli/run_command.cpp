@@ -73,28 +73,21 @@ SessionOptions options(const RunArguments& arguments)
     rolling_direction(arguments.rolling); // before the work
     if (!arguments.corners.empty())
         result.corners = {arguments.corners[0], arguments.corners[1], arguments.corners[2], arguments.corners[3]};
-    if (!arguments.grid.empty()) {
+    result.grid = arguments.grid;
+    if (!arguments.cells.empty()) {
         int n = 0, m = 0, read = 0;
-        if (std::sscanf(arguments.grid.c_str(), "%4dx%4d%n", &n, &m, &read) != 2 ||
-            read != int(arguments.grid.size()) || n < 1 || m < 1 || n > 2000 || m > 2000)
+        if (std::sscanf(arguments.cells.c_str(), "%4dx%4d%n", &n, &m, &read) != 2 ||
+            read != int(arguments.cells.size()) || n < 1 || m < 1 || n > 2000 || m > 2000)
             throw InputError(
-                fmt::format("--grid {}: give two numbers of cells from 1 to 2000 as in --grid 60x40", arguments.grid));
+                fmt::format("--grid {}: give two numbers of cells from 1 to 2000 as in --grid 60x40", arguments.cells));
         result.grid.columns = n;
         result.grid.rows = m;
     }
     result.limits = limits_options(arguments);
-    result.grid.method = arguments.grid_method == "coons"      ? GridMethod::coons
-                         : arguments.grid_method == "harmonic" ? GridMethod::harmonic
-                                                               : GridMethod::automatic;
     // a NaN passes the check of the option
-    if (!(arguments.line_grading >= 0 && arguments.line_grading <= 0.9))
+    if (!(arguments.grid.line_grading >= 0 && arguments.grid.line_grading <= 0.9))
         throw InputError("--to-bends is a share of the lines, from 0 to 0.9");
-    result.grid.line_grading = arguments.line_grading;
-    result.grid.even_cells = arguments.even_cells;
-    if (arguments.ends == "natural")
-        result.interpolate.ends = CurveEnds::natural;
-    if (arguments.ends == "clamped")
-        result.interpolate.ends = CurveEnds::clamped;
+    result.interpolate.ends = arguments.ends;
     result.interpolate.degree_u = arguments.degree.front();
     result.interpolate.degree_v = arguments.degree.back();
     result.tolerance = arguments.tolerance;
@@ -115,18 +108,17 @@ SessionOptions options(const RunArguments& arguments)
         result.patches->edge_deg = *arguments.patch_edges;
     if (result.patches && arguments.degree.front() != arguments.degree.back())
         throw InputError("patches of a layout have one degree along u and v; give --degree one number");
-    if (result.patches && arguments.fit_parameters == "corrected")
+    if (result.patches && arguments.fit_parameters == FitParameters::corrected)
         throw InputError("patches of a layout keep the places of the blank; leave --fit-parameters corrected out");
-    if (result.patches && arguments.ends != "averaged")
+    if (result.patches && arguments.ends != CurveEnds::averaged_knots)
         throw InputError("patches of a layout have averaged knots at their ends; leave --ends out");
-    if (result.patches && (!arguments.corners.empty() || !arguments.grid.empty()))
+    if (result.patches && (!arguments.corners.empty() || !arguments.cells.empty()))
         throw InputError(
             "--corners and --grid are for one patch; give corners in the file of --patches, or take --patches one");
-    if (result.patches && (arguments.line_grading > 0 || arguments.even_cells))
+    if (result.patches && (arguments.grid.line_grading > 0 || arguments.grid.even_cells))
         throw InputError(
             "--to-bends and --even-cells are for the grid of one patch; take --patches one, or leave them out");
-    if (arguments.fit_parameters == "corrected")
-        result.fit_parameters = FitParameters::corrected;
+    result.fit_parameters = arguments.fit_parameters;
     result.max_control_points = arguments.max_control_points;
     result.fill_holes = arguments.fill_holes;
     return result;

@@ -13,6 +13,8 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/locate.h"
 #include "engine/mesh/tri_mesh.h"
+#include "engine/options/described.h"
+#include "engine/options/surface_options.h"
 
 namespace spia {
 
@@ -36,6 +38,13 @@ struct GridOptions {
 
     friend bool operator==(const GridOptions&, const GridOptions&) = default;
 };
+
+template <>
+inline constexpr auto described<GridOptions> = std::tuple{
+    describe(option::columns, &GridOptions::columns),      describe(option::rows, &GridOptions::rows),
+    describe(option::cells, &GridOptions::cells),          describe(option::smoothing, &GridOptions::smoothing),
+    describe(option::grid_method, &GridOptions::method),   describe(option::line_grading, &GridOptions::line_grading),
+    describe(option::even_cells, &GridOptions::even_cells)};
 
 /// Which way the grid came about.
 enum class GridRoute { coons, smoothed_coons, harmonic, area_balanced, untangled, spiral };

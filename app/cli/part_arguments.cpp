@@ -1,0 +1,87 @@
+#include "app/cli/part_arguments.h"
+
+#include "app/cli/add_option.h"
+#include "engine/options/part_options.h"
+#include "engine/options/sheet_options.h"
+
+namespace spia::cli {
+
+void add_part(CLI::App& command, std::filesystem::path& part)
+{
+    command
+        .add_option("part", part,
+                    "STL, OBJ, PLY, OFF, glTF or GLB file, CAD file (.step .stp .iges .igs .brep), or solver deck "
+                    "(LS-DYNA .k .key .dyn, Nastran .bdf .nas .dat, Abaqus and CalculiX .inp, Gmsh .msh, Radioss .rad)")
+        ->required()
+        ->type_name("PART");
+}
+
+void add_choice_of_parts(CLI::App& command, std::vector<std::string>& parts)
+{
+    add(command, option::part, parts)->delimiter(',')->allow_extra_args(false);
+}
+
+void add_cad(CLI::App& command, CadArguments& cad)
+{
+    // what is wrong with these the reader says in its own words
+    add_unchecked(command, option::sewing, cad.sewing);
+    add_unchecked(command, option::deflection, cad.deflection);
+    add(command, option::chord_angle, cad.angle_deg);
+    add(command, option::skip_bad_faces, cad.skip_bad_faces);
+}
+
+void add_remesh(CLI::App& command, RemeshArguments& remesh)
+{
+    CLI::Option* wanted = add(command, option::remesh, remesh.wanted);
+    add(command, option::no_remesh, remesh.unwanted)->excludes(wanted);
+    add(command, option::remesh_size, remesh.size)->needs(wanted);
+    add(command, option::remesh_tolerance, remesh.tolerance)->needs(wanted);
+    add(command, option::least_angle, remesh.least_angle_deg);
+    add(command, option::edge_ratio, remesh.edge_ratio);
+}
+
+void add_repairs(CLI::App& command, std::string& unit, std::optional<double>& weld, bool& keep_largest)
+{
+    add(command, option::unit, unit);
+    add(command, option::weld, weld);
+    add(command, option::keep_largest, keep_largest);
+}
+
+void add_rolling(CLI::App& command, std::vector<double>& rolling)
+{
+    add(command, option::rolling, rolling)->delimiter(',')->expected(3);
+}
+
+void add_direction(CLI::App& command, std::vector<double>& direction)
+{
+    add(command, option::direction, direction)->delimiter(',')->expected(3);
+}
+
+void add_dxf(CLI::App& command, DxfArguments& dxf)
+{
+    command
+        .add_option("--dxf-curves", dxf.curves,
+                    "what the outline is in the DXF file of the blank: circles, arcs and lines where they are found, "
+                    "else straight pieces (arcs) or splines (splines); or straight pieces throughout (polylines)")
+        ->check(CLI::IsMember({"arcs", "polylines", "splines"}))
+        ->capture_default_str();
+    command.add_option("--dxf-version", dxf.version, "of that file: r12 (AC1009, no splines) or r2000 (AC1015)")
+        ->check(CLI::IsMember({"r12", "r2000"}))
+        ->capture_default_str();
+    command
+        .add_option("--dxf-tolerance", dxf.tolerance, "how far a place of the outline may be from what is drawn there")
+        ->type_name("MM")
+        ->capture_default_str();
+}
+
+CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& chosen,
+                      const std::vector<std::string>& all, const char* help)
+{
+    return command.add_option(name, chosen, help)
+        ->delimiter(',')
+        ->check(CLI::IsMember(all))
+        ->type_name("LIST")
+        ->capture_default_str();
+}
+
+} // namespace spia::cli
