@@ -1,13 +1,13 @@
 #include "app/viewer/panels/fit_editor.h"
 
-#include <algorithm>
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/reports/export_check.h"
 #include "app/viewer/model/reports/fit_cost.h"
 #include "app/viewer/model/reports/lights.h"
-#include "app/viewer/model/reports/viewer_words.h"
+#include "app/viewer/panels/option_fields.h"
+#include "engine/options/surface_options.h"
 
 namespace spia::viewer {
 
@@ -41,15 +41,15 @@ void fit_editor(Frame& frame, FitChoice fit)
     const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
     if (length_inputs(frame, unit.c_str(), &tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"}) &&
         fit.tolerance) {
-        fit.tolerance = std::clamp(tolerance, 1e-9, 1e6);
+        fit.tolerance = option::tolerance.range->nearest(tolerance);
         changed = true;
     }
     ImGui::EndDisabled();
     double degrees[] = {double(fit.degree_u), double(fit.degree_v)};
     ImGui::SetNextItemWidth(width);
     if (typed_numbers(frame, patches ? "Degree" : "Degree u, v", degrees, patches ? 1 : 2, "%.0f")) {
-        fit.degree_u = int(std::clamp(degrees[0], 2., 5.));
-        fit.degree_v = patches ? fit.degree_u : int(std::clamp(degrees[1], 2., 5.));
+        fit.degree_u = int(option::degree.range->nearest(degrees[0]));
+        fit.degree_v = patches ? fit.degree_u : int(option::degree.range->nearest(degrees[1]));
         if (fit.ends == CurveEnds::natural && (fit.degree_u != 3 || fit.degree_v != 3))
             fit.ends = CurveEnds::averaged_knots;
         changed = true;
@@ -60,33 +60,21 @@ void fit_editor(Frame& frame, FitChoice fit)
             frame.actions.push(SetFit{fit});
         return;
     }
-    static constexpr const char* names[] = {"free", "along the part", "natural"};
-    int ends = int(fit.ends);
     ImGui::SetNextItemWidth(width);
-    if (ImGui::Combo("Borders", &ends, names, 3)) {
-        fit.ends = CurveEnds(ends);
+    if (choice_field(option::ends, fit.ends)) {
         if (fit.ends == CurveEnds::natural)
             fit.degree_u = fit.degree_v = 3;
         changed = true;
     }
-    tooltip(
-        "How the surface runs out at its borders. Free: with the knots averaged from the data. Along the part: with the slope estimated from the part (clamped). Both are accurate up to the border. Natural: without curvature at the border (degree 3 only), less accurate there.");
     ImGui::BeginDisabled(!fit.tolerance);
     bool corrected = fit.tolerance && fit.parameters == FitParameters::corrected;
-    if (ImGui::Checkbox("Fewer control points", &corrected)) {
+    if (tick(option::fit_parameters, corrected)) {
         fit.parameters = corrected ? FitParameters::corrected : FitParameters::blank;
         changed = true;
     }
-    tooltip(
-        "Lets points slide along the surface while it is fitted (parameter correction): it then needs fewer control points, but its lines u and v no longer are those of the blank");
     ImGui::SetNextItemWidth(width);
-    constexpr int least = 16, greatest = 4'000'000; // as SetFit takes
-    if (typed_integer(frame, "Max control points", fit.max_control_points)) {
-        fit.max_control_points = std::clamp(fit.max_control_points, least, greatest);
-        changed = true;
-    }
+    changed |= integer_field(frame, option::max_control_points, fit.max_control_points);
     ImGui::EndDisabled();
-    tooltip("The fit ends there even if the tolerance is not reached");
     cost_of_fit(frame, fit);
     if (changed)
         frame.actions.push(SetFit{fit});

@@ -2,14 +2,16 @@
 #include <fmt/core.h>
 
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/option_fields.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 #include "engine/core/text.h"
+#include "engine/options/sheet_options.h"
 #include "engine/report/figures/face_values.h"
 #include "engine/report/text/number_text.h"
+#include "engine/report/text/sentence.h"
 #include "engine/report/text/zone_look.h"
 
-#include "engine/report/text/sentence.h"
 namespace spia::viewer {
 namespace {
 
@@ -43,7 +45,7 @@ void curve_input(Frame& frame, LimitsChoice& choice)
 }
 
 /// A share that is typed in percent. @returns whether it was changed
-bool percent_input(Frame& frame, const char* label, double& share, const char* help)
+bool percent_input(Frame& frame, const char* label, double& share, const std::string& help)
 {
     double percent = 100 * share;
     ImGui::SetNextItemWidth(86 * frame.ui.scale);
@@ -53,6 +55,11 @@ bool percent_input(Frame& frame, const char* label, double& share, const char* h
         return false;
     share = std::clamp(percent / 100, 0., 1.);
     return true;
+}
+
+void percent_input(Frame& frame, const Option& option, double& share)
+{
+    percent_input(frame, std::string(option.label).c_str(), share, help_text(option));
 }
 
 void settings(Frame& frame)
@@ -73,8 +80,8 @@ void settings(Frame& frame)
             frame, "Required margin", margin,
             "What is to be left up to the curve, in percentage points of engineering major strain. Less counts as marginal, less than half of it as at risk."))
         choice.margin = margin;
-    percent_input(frame, "Allowed thinning", choice.max_thinning, "Of the initial thickness");
-    percent_input(frame, "Allowed thickening", choice.max_thickening, "Of the initial thickness");
+    percent_input(frame, option::max_thinning, choice.max_thinning);
+    percent_input(frame, option::max_thickening, choice.max_thickening);
     percent_input(frame, "Low strain below", choice.low_strain,
                   "Engineering strain; faces with both principal strains below it are hardly stretched");
     if (!(choice == document.limits))

@@ -6,15 +6,18 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/fit_editor.h"
 #include "app/viewer/panels/lights.h"
+#include "app/viewer/panels/option_fields.h"
 #include "app/viewer/panels/step_parts.h"
 #include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/text.h"
+#include "engine/options/sheet_options.h"
+#include "engine/options/surface_options.h"
 #include "engine/report/text/number_text.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 namespace {
-#include "engine/report/text/sentence.h"
 
 Status status(const Frame& frame, Stage stage, bool there)
 {
@@ -178,9 +181,8 @@ void skins_control(Frame& frame)
     if (!session.part)
         return;
     bool skins = session.options.flatten.skins;
-    if (ImGui::Checkbox("Strains of both skins", &skins))
+    if (tick(option::both_skins, skins))
         frame.actions.push(SetSkins{skins});
-    tooltip("Adds the bending strain at radii to the strain of the middle surface, as separate fields");
 }
 
 void unfold_step(Frame& frame)
@@ -284,39 +286,22 @@ void grid_step(Frame& frame)
     tooltip("Give the number of cells along the longer sides; the other number follows");
     ImGui::SetNextItemWidth(width);
     if (automatic) {
-        changed |= typed_integer(frame, "Cells", grid.cells, 5);
-        grid.cells = std::clamp(grid.cells, 1, 2000);
+        changed |= integer_field(frame, option::cells, grid.cells, 5);
     } else {
         double counts[] = {double(grid.columns), double(grid.rows)};
         changed |= typed_numbers(frame, "Columns, rows", counts, 2, "%.0f");
-        grid.columns = int(std::clamp(counts[0], 1., 2000.));
-        grid.rows = int(std::clamp(counts[1], 1., 2000.));
+        grid.columns = int(std::clamp(counts[0], 1., option::columns.range->greatest));
+        grid.rows = int(std::clamp(counts[1], 1., option::rows.range->greatest));
     }
-    static constexpr const char* methods[] = {"automatic", "Coons", "harmonic"};
-    int method = int(grid.method);
     ImGui::SetNextItemWidth(width);
-    if (ImGui::Combo("Method", &method, methods, 3)) {
-        grid.method = GridMethod(method);
-        changed = true;
-    }
-    tooltip(
-        "Coons: lines blended between opposite sides, smoothed where cells fold. Harmonic: lines as heat would flow from side to side, without folded cells. Automatic: Coons, or harmonic where that folds");
+    changed |= choice_field(option::grid_method, grid.method);
     if (grid.method != GridMethod::harmonic) {
         ImGui::SetNextItemWidth(width);
-        changed |= typed_integer(frame, "Smoothing", grid.smoothing, 10);
-        grid.smoothing = std::clamp(grid.smoothing, 0, 100000);
-        tooltip("How often the nodes of a Coons grid with folded cells are smoothed at most");
+        changed |= integer_field(frame, option::smoothing, grid.smoothing, 10);
     }
-    double percent = 100 * grid.line_grading;
     ImGui::SetNextItemWidth(width);
-    if (typed_number(frame, "Lines to bends, %", percent, "%.0f")) {
-        grid.line_grading = std::clamp(percent / 100, 0., 0.9);
-        changed = true;
-    }
-    tooltip(
-        "Share of the grid lines concentrated at bends; the others are spaced evenly. 50 suits a flat part with narrow bends.");
-    changed |= ImGui::Checkbox("Improve cell angles", &grid.even_cells);
-    tooltip("Moves the inner nodes to bring the cell angles closer to 90\u00b0, without folding a cell");
+    changed |= percent_field(frame, option::line_grading, grid.line_grading);
+    changed |= tick(option::even_cells, grid.even_cells);
     if (changed)
         frame.actions.push(SetGrid{grid});
     if (session.grid) {

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "app/viewer/panels/fit_editor.h"
+#include "app/viewer/panels/option_fields.h"
 #include "app/viewer/views/colour_scale.h"
+#include "engine/options/surface_options.h"
 #include "engine/pipeline/certificate_report.h"
 
 namespace spia::viewer {
@@ -146,7 +148,7 @@ bool surface_look_combo(SurfaceLook& look)
 /// On which edges of the part patches end.
 void edges_editor(Frame& frame, const LayoutOptions& patches)
 {
-    constexpr double none = 180;
+    constexpr double none = option::patch_edges.range->greatest;
     LayoutOptions changed = patches;
     bool at_edges = patches.edge_deg < none;
     if (ImGui::Checkbox("End at sharp edges", &at_edges)) {
@@ -158,12 +160,9 @@ void edges_editor(Frame& frame, const LayoutOptions& patches)
     if (!at_edges)
         changed.edge_deg = LayoutOptions{}.edge_deg; // what a tick would take
     ImGui::SetNextItemWidth(70 * frame.ui.scale);
-    if (typed_number(frame, "Edges from, degrees", changed.edge_deg, "%.4g")) {
-        changed.edge_deg = std::clamp(changed.edge_deg, 1., none);
+    if (angle_field(frame, option::patch_edges, changed.edge_deg))
         frame.actions.push(SetPatches{changed});
-    }
     ImGui::EndDisabled();
-    tooltip("Smallest angle between faces that counts as a sharp edge");
 }
 
 void patches_editor(Frame& frame)
@@ -191,12 +190,11 @@ void patches_editor(Frame& frame)
     if (patches->cuts.empty() && patches->corners.empty())
         edges_editor(frame, *patches);
     bool smooth = patches->smooth_joins;
-    if (ImGui::Checkbox("Smooth joins", &smooth)) {
+    if (tick(option::smooth_joins, smooth)) {
         LayoutOptions changed = *patches;
         changed.smooth_joins = smooth;
         frame.actions.push(SetPatches{changed});
     }
-    tooltip("Makes patches join smoothly as far as the tolerance allows; sharp edges of the part are kept");
     if (patches->cuts.empty())
         muted(frame, "To add a cut, pick two vertices of the border with the tool Vertex.");
 }

@@ -15,6 +15,7 @@
 
 #include "app/viewer/model/actions/names.h"
 #include "engine/core/json_file.h"
+#include "engine/options/option.h"
 #include "engine/report/figures/field.h"
 
 /// Structs to and from JSON by a list of their members, once for scripts, projects and reports:
@@ -47,6 +48,20 @@ struct Between {
         }
     }
 };
+
+/// Of an option, where it has a range.
+struct InRange {
+    std::optional<Range> range;
+
+    void operator()(const auto& value, const Place& place) const
+    {
+        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>> || requires { *value + 1.; }) {
+            if (range)
+                Between{range->least, range->greatest}(value, place);
+        }
+    }
+};
+
 inline constexpr Between any_index{0, std::numeric_limits<int>::max()};
 inline constexpr double most_mm = 1e9; ///< no part is larger: what is beyond is damage
 struct Anything {
@@ -63,6 +78,11 @@ template <class S, class T, class Check = Anything>
 constexpr Member<S, T, Check> member(std::string_view name, T S::*where, Check check = {})
 {
     return {name, where, false, check};
+}
+/// As an option is described.
+template <class S, class T> constexpr Member<S, T, InRange> member(const Option& option, T S::*where)
+{
+    return {option.key, where, false, {option.range}};
 }
 template <class S, class T, class Check = Anything>
 constexpr Member<S, T, Check> required(std::string_view name, T S::*where, Check check = {})

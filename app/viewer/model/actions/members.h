@@ -8,10 +8,19 @@
 #include "app/viewer/model/document/state.h"
 #include "app/viewer/model/document/step_target.h"
 #include "app/viewer/model/reports/report_options.h"
+#include "engine/options/part_options.h"
+#include "engine/options/sheet_options.h"
+#include "engine/options/surface_options.h"
 #include "engine/pipeline/outputs.h"
 
 /// The members of the structs that scripts, projects and reports share.
 namespace spia::viewer {
+
+/// All members that options set.
+template <class... Each> constexpr auto members_by(const std::tuple<Each...>& described)
+{
+    return std::apply([](const Each&... each) { return std::tuple{member(*each.option, each.member)...}; }, described);
+}
 
 /// Checks beyond a number's bounds: check(value, place) as in Member.
 inline constexpr auto rising_range = [](const std::optional<std::array<double, 2>>& range, const Place& place) {
@@ -83,55 +92,47 @@ template <>
 inline constexpr auto members_of<SeamOptions> =
     std::tuple{member("mode", &SeamOptions::mode), member("path", &SeamOptions::path, is_path)};
 
-inline constexpr auto gap_width = Between{0, 1e3}, chord_height = Between{1e-6, 1e3}; ///< mm
+inline constexpr Between gap_width{option::gap_width.least, option::gap_width.greatest}, ///< mm
+    chord_height{option::chord_height.least, option::chord_height.greatest};             ///< mm
 template <>
 inline constexpr auto members_of<Reading> = std::tuple{member("weld", &Reading::weld),
                                                        member("weld_gap_mm", &Reading::weld_gap_mm, gap_width),
-                                                       member("keep_largest", &Reading::keep_largest),
-                                                       member("parts", &Reading::parts),
-                                                       member("skin", &Reading::skin),
-                                                       member("sewing_mm", &Reading::sewing_mm, gap_width),
-                                                       member("deflection_mm", &Reading::deflection_mm, chord_height),
-                                                       member("leave_out_bad_faces", &Reading::leave_out_bad_faces),
-                                                       member("keep_triangles", &Reading::keep_triangles)};
+                                                       member(option::keep_largest, &Reading::keep_largest),
+                                                       member(option::part, &Reading::parts),
+                                                       member(option::skin, &Reading::skin),
+                                                       member(option::sewing, &Reading::sewing_mm),
+                                                       member(option::deflection, &Reading::deflection_mm),
+                                                       member(option::skip_bad_faces, &Reading::leave_out_bad_faces),
+                                                       member(option::no_remesh, &Reading::keep_triangles)};
 template <>
-inline constexpr auto members_of<RemeshOptions> =
-    std::tuple{member("size", &RemeshOptions::size, Between{1e-9, most_mm}),
-               member("tolerance", &RemeshOptions::tolerance, Between{1e-9, most_mm})};
+inline constexpr auto members_of<RemeshOptions> = std::tuple{
+    member(option::remesh_size, &RemeshOptions::size), member(option::remesh_tolerance, &RemeshOptions::tolerance)};
 
 template <>
-inline constexpr auto members_of<TensileOptions> =
-    std::tuple{member("kind", &TensileOptions::kind), member("in_percent", &TensileOptions::in_percent),
-               member("young_MPa", &TensileOptions::young_MPa, Between{1e3, 1e6})};
+inline constexpr auto members_of<TensileOptions> = std::tuple{member(option::stress_measure, &TensileOptions::kind),
+                                                              member(option::strain_unit, &TensileOptions::in_percent),
+                                                              member(option::young, &TensileOptions::young_MPa)};
 template <>
 inline constexpr auto members_of<MaterialFitOptions> =
     std::tuple{member("law", &MaterialFitOptions::law),
                member("name", &MaterialFitOptions::name),
                member("test", &MaterialFitOptions::test),
-               member("poisson", &MaterialFitOptions::poisson, Between{-0.99, 0.5}),
-               member("density_kg_m3", &MaterialFitOptions::density_kg_m3, Between{1, 9e4}),
+               member(option::poisson, &MaterialFitOptions::poisson),
+               member(option::density, &MaterialFitOptions::density_kg_m3),
                member("r0", &MaterialFitOptions::r0, Between{1e-3, 99}),
                member("r45", &MaterialFitOptions::r45, Between{1e-3, 99}),
                member("r90", &MaterialFitOptions::r90, Between{1e-3, 99})};
 
-template <>
-inline constexpr auto members_of<GridOptions> =
-    std::tuple{member("columns", &GridOptions::columns, Between{0, 2000}),
-               member("rows", &GridOptions::rows, Between{0, 2000}),
-               member("cells", &GridOptions::cells, Between{1, 2000}),
-               member("smoothing", &GridOptions::smoothing, Between{0, 100000}),
-               member("method", &GridOptions::method),
-               member("to_bends", &GridOptions::line_grading, Between{0, 0.9}),
-               member("even_cells", &GridOptions::even_cells)};
+template <> inline constexpr auto members_of<GridOptions> = members_by(described<GridOptions>);
 
 template <>
 inline constexpr auto members_of<FitChoice> =
-    std::tuple{member("tolerance", &FitChoice::tolerance, Between{1e-9, most_mm}),
-               member("degree_u", &FitChoice::degree_u, Between{2, 5}),
-               member("degree_v", &FitChoice::degree_v, Between{2, 5}),
-               member("ends", &FitChoice::ends),
-               member("parameters", &FitChoice::parameters),
-               member("max_control_points", &FitChoice::max_control_points, Between{16, 4'000'000})};
+    std::tuple{member(option::tolerance, &FitChoice::tolerance),
+               member(option::degree_u, &FitChoice::degree_u),
+               member(option::degree_v, &FitChoice::degree_v),
+               member(option::ends, &FitChoice::ends),
+               member(option::fit_parameters, &FitChoice::parameters),
+               member(option::max_control_points, &FitChoice::max_control_points)};
 
 inline constexpr auto is_cut = [](const std::vector<LayoutCut>& cuts, const Place& place) {
     is_path(cuts, place);
@@ -141,8 +142,8 @@ inline constexpr auto is_cut = [](const std::vector<LayoutCut>& cuts, const Plac
 template <>
 inline constexpr auto members_of<LayoutOptions> =
     std::tuple{member("cuts", &LayoutOptions::cuts, is_cut), member("corners", &LayoutOptions::corners, any_index),
-               member("edge_deg", &LayoutOptions::edge_deg, Between{1, 180}),
-               member("smooth_joins", &LayoutOptions::smooth_joins)};
+               member(option::patch_edges, &LayoutOptions::edge_deg),
+               member(option::smooth_joins, &LayoutOptions::smooth_joins)};
 
 inline constexpr Between lattice_points{2, 64}, lattice_degrees{1, 5};
 template <>
@@ -188,10 +189,10 @@ template <>
 inline constexpr auto members_of<LimitsChoice> =
     std::tuple{member("curve", &LimitsChoice::curve),
                member("table", &LimitsChoice::table),
-               member("n", &LimitsChoice::n, Between{1e-6, 1}),
-               member("margin", &LimitsChoice::margin, Between{0, 1}),
-               member("max_thinning", &LimitsChoice::max_thinning, Between{0, 1}),
-               member("max_thickening", &LimitsChoice::max_thickening, Between{0, 10}),
+               member(option::flc_n, &LimitsChoice::n),
+               member(option::marginal, &LimitsChoice::margin),
+               member(option::max_thinning, &LimitsChoice::max_thinning),
+               member(option::max_thickening, &LimitsChoice::max_thickening),
                member("low_strain", &LimitsChoice::low_strain, Between{0, 1})};
 
 /// Checks that a tool presses with one of the two.

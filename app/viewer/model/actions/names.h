@@ -8,6 +8,9 @@
 #include "app/viewer/model/actions/actions.h"
 #include "app/viewer/model/reports/lights.h"
 #include "engine/core/error.h"
+#include "engine/options/part_options.h"
+#include "engine/options/sheet_options.h"
+#include "engine/options/surface_options.h"
 
 /// The names that enumerations have in scripts, projects and reports: one table each.
 namespace spia::viewer {
@@ -15,6 +18,15 @@ namespace spia::viewer {
 struct NoNames {};
 template <class E> inline constexpr NoNames names_of{}; ///< specialised: an array of (value, name)
 template <class E> using Names = std::pair<E, std::string_view>;
+
+/// As the choices of an option are called.
+template <class E, size_t count> constexpr std::array<Names<E>, count> names_by(const Choice (&choices)[count])
+{
+    std::array<Names<E>, count> names;
+    for (size_t i = 0; i < count; ++i)
+        names[i] = {E(i), choices[i].name};
+    return names;
+}
 
 template <>
 inline constexpr std::array names_of<RegionKind>{
@@ -77,35 +89,22 @@ template <>
 inline constexpr std::array names_of<Stage>{Names<Stage>{Stage::read, "read"}, Names<Stage>{Stage::solve, "solve"},
                                             Names<Stage>{Stage::grid, "grid"}, Names<Stage>{Stage::lift, "lift"},
                                             Names<Stage>{Stage::fit, "fit"}};
-template <>
-inline constexpr std::array names_of<Skin>{Names<Skin>{Skin::outer, "outer"}, Names<Skin>{Skin::inner, "inner"},
-                                           Names<Skin>{Skin::middle, "middle"}};
-template <>
-inline constexpr std::array names_of<GridMethod>{Names<GridMethod>{GridMethod::automatic, "automatic"},
-                                                 Names<GridMethod>{GridMethod::coons, "coons"},
-                                                 Names<GridMethod>{GridMethod::harmonic, "harmonic"}};
+template <> inline constexpr auto names_of<Skin> = names_by<Skin>(option::skins_of_solid);
+template <> inline constexpr auto names_of<GridMethod> = names_by<GridMethod>(option::grid_methods);
 template <>
 inline constexpr std::array names_of<InterpolateOptions::Parameters>{
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::chord, "chord"},
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::centripetal, "centripetal"},
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::uniform, "uniform"}};
-template <>
-inline constexpr std::array names_of<CurveEnds>{Names<CurveEnds>{CurveEnds::averaged_knots, "averaged"},
-                                                Names<CurveEnds>{CurveEnds::clamped, "clamped"},
-                                                Names<CurveEnds>{CurveEnds::natural, "natural"}};
-template <>
-inline constexpr std::array names_of<FitParameters>{Names<FitParameters>{FitParameters::blank, "blank"},
-                                                    Names<FitParameters>{FitParameters::corrected, "corrected"}};
+template <> inline constexpr auto names_of<CurveEnds> = names_by<CurveEnds>(option::curve_ends);
+template <> inline constexpr auto names_of<FitParameters> = names_by<FitParameters>(option::fit_parameter_choices);
 template <>
 inline constexpr std::array names_of<LimitsOptions::Source>{
     Names<LimitsOptions::Source>{LimitsOptions::Source::automatic, "automatic"},
     Names<LimitsOptions::Source>{LimitsOptions::Source::keeler_brazier, "keeler_brazier"},
     Names<LimitsOptions::Source>{LimitsOptions::Source::points, "points"},
     Names<LimitsOptions::Source>{LimitsOptions::Source::none, "none"}};
-template <>
-inline constexpr std::array names_of<LengthUnit>{
-    Names<LengthUnit>{LengthUnit::mm, "mm"}, Names<LengthUnit>{LengthUnit::cm, "cm"},
-    Names<LengthUnit>{LengthUnit::m, "m"}, Names<LengthUnit>{LengthUnit::inch, "inch"}};
+template <> inline constexpr auto names_of<LengthUnit> = names_by<LengthUnit>(option::units);
 template <>
 inline constexpr std::array names_of<DxfVersion>{Names<DxfVersion>{DxfVersion::r12, "r12"},
                                                  Names<DxfVersion>{DxfVersion::r2000, "r2000"}};
@@ -120,9 +119,7 @@ inline constexpr std::array names_of<SeamOptions::Mode>{
     Names<SeamOptions::Mode>{SeamOptions::Mode::given, "given"},
     Names<SeamOptions::Mode>{SeamOptions::Mode::corners, "corners"}};
 template <>
-inline constexpr std::array names_of<TensileOptions::Kind>{
-    Names<TensileOptions::Kind>{TensileOptions::Kind::engineering, "engineering"},
-    Names<TensileOptions::Kind>{TensileOptions::Kind::truly, "true"}};
+inline constexpr auto names_of<TensileOptions::Kind> = names_by<TensileOptions::Kind>(option::stress_measures);
 template <>
 inline constexpr std::array names_of<PickMode>{Names<PickMode>{PickMode::replace, "replace"},
                                                Names<PickMode>{PickMode::add, "add"},
