@@ -316,7 +316,7 @@ void add_map_attempts(std::vector<PlannedAttempt>& attempts, GridContext& contex
 }
 
 GridResult sound_grid(GridContext& context, const GridOptions& options, const Progress& progress,
-                       std::span<const int> file_number)
+                      std::span<const int> file_number)
 {
     int columns = 0, rows = 0;
     choose_counts(context, options, columns, rows);
