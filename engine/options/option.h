@@ -42,7 +42,7 @@ struct Option {
 /// What to do next, where that is another thing in files and on the command line than in the
 /// window.
 struct Advice {
-    std::string_view name; ///< unlike that of any option
+    std::string_view name; ///< unlike that of any option, without blanks
     std::string_view on_command_line, in_window;
 };
 

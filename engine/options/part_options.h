@@ -54,8 +54,9 @@ inline constexpr Choice skins_of_solid[] = {{"outer"}, {"inner"}, {"middle"}};
 inline constexpr Option skin{.name = "skin",
                              .key = "skin",
                              .choices = skins_of_solid,
-                             .help = "of a solid of sheet: the surface that stands for it, outer (outside of its bends), "
-                                     "inner or middle (default: middle)",
+                             .help =
+                                 "of a solid of sheet: the surface that stands for it, outer (outside of its bends), "
+                                 "inner or middle (default: middle)",
                              .label = "Skin",
                              .place = "the step Part"};
 

@@ -98,6 +98,19 @@ TEST(Option, IsListedWithNamesOfItsOwn)
     EXPECT_EQ(all_options().size() + all_advice().size(), described);
 }
 
+TEST(Option, IsNamedInTheWordsOfEachProgram)
+{
+    for (const Option* each : all_options())
+        if (!each->name.empty()) {
+            EXPECT_EQ(command_line_text("(" + mention(*each) + ")"), "(--" + std::string(each->name) + ")");
+            EXPECT_EQ(window_text(mention(*each)).find_first_of("\x02\x03"), std::string::npos) << each->name;
+        }
+    for (const Advice* each : all_advice()) {
+        EXPECT_EQ(command_line_text(mention(*each)), each->on_command_line);
+        EXPECT_EQ(window_text(mention(*each)), each->in_window);
+    }
+}
+
 TEST(Option, IsSpelledAsAFlagByNoTextOfTheEngine)
 {
     const std::regex flag(R"re("[^"\n]*--[a-z][a-z-]*[^"\n]*")re");

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/core/error.h"
+#include "engine/options/all_options.h"
 
 namespace spia::viewer {
 namespace {
@@ -69,10 +70,17 @@ TEST(Manual, FindsWordsInAnyOrderAndCase)
     EXPECT_TRUE(places_of(manual, "zebra").empty());
 }
 
-/// All that the panels write on the screen, as it stands in the sources: string literals.
-std::set<std::string> literals()
+/// All that the panels write on the screen: the labels of options, in percent and degrees as well,
+/// and the string literals of the sources.
+std::set<std::string> names_in_window()
 {
     std::set<std::string> all;
+    for (const Option* option : all_options()) {
+        for (const char* unit : {"", ", %", ", degrees"})
+            all.insert(std::string(option->label) + unit);
+        for (const Choice& choice : option->choices)
+            all.insert(std::string(label_of(choice)));
+    }
     const std::regex literal(R"lit("((?:[^"\\\n]|\\.)*)")lit");
     for (const char* folder : {"panels", "model", "views"})
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPIA_SOURCE_DIR) / "app/viewer" / folder)) {
@@ -97,7 +105,7 @@ TEST(Manual, NamesOnlyWhatTheWindowHas)
 {
     const Manual manual = read_manual(SPIA_SOURCE_DIR "/assets/manual");
     ASSERT_GE(manual.chapters.size(), 12u);
-    const std::set<std::string> known = literals();
+    const std::set<std::string> known = names_in_window();
     int names = 0;
     const auto check = [&](const ManualText& text, const std::string& chapter) {
         for (const ManualSpan& span : text)
