@@ -12,6 +12,7 @@
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/report/figures/figures.h"
+#include "engine/report/text/number_text.h"
 
 namespace spia::cli {
 namespace {
@@ -68,9 +69,9 @@ void print_summary(const Session& session)
     if (flat.report.process_share < 1)
         say("process   of these forces {:.2g} % are in the blank\n", 100 * flat.report.process_share);
     if (session.options.steps && !session.options.steps->polish)
-        say("blank     {:.6g} x {:.6g} mm, {}\n", size[0], size[1], flat.report.reason);
+        say("blank     {:.6g} x {:.6g} mm, {:.6g} mm2, {}\n", size[0], size[1], figures.blank.area, flat.report.reason);
     else
-        say("blank     {:.6g} x {:.6g} mm{}, {} energy and {}, {}\n", size[0], size[1],
+        say("blank     {:.6g} x {:.6g} mm, {:.6g} mm2{}, {} energy and {}, {}\n", size[0], size[1], figures.blank.area,
             session.options.steps ? " of the steps, polished" : "", flat.report.energy.size(),
             counted(flat.report.newton.size(), "Newton step", "Newton steps"),
             flat.report.whole()     ? "converged"
@@ -78,8 +79,8 @@ void print_summary(const Session& session)
                                     : "NOT converged");
     if (session.bends)
         print_bends(*session.bends);
-    say("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n", 100 * figures.sheet.thinning[0],
-        100 * figures.sheet.thinning[1], figures.sheet.strain_equivalent);
+    say("forming   thinning {}, equivalent strain up to {:.3f}\n", percent_range(figures.sheet.thinning),
+        figures.sheet.strain_equivalent);
     if (session.corner_cut)
         say("corners   {}\n", describe(*session.corner_cut));
     if (flat.skins)

@@ -35,6 +35,7 @@
 #include "engine/pipeline/unfold_states.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/report_json.h"
+#include "engine/report/text/number_text.h"
 #include "engine/unfold/automatic_unfolding.h"
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/step/polish.h"
@@ -109,9 +110,8 @@ void print_states(const UnfoldRun& run, double diagonal)
             if (state.step[f] == int(k + 1))
                 moved.push_back(int(f));
         const SheetFigures figures = sheet_figures(state.face, moved);
-        say("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1, state.name,
-            state.plain, figures.strain_equivalent, 100 * figures.thinning[0], 100 * figures.thinning[1],
-            state.converged ? "" : ", NOT converged");
+        say("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {}{}\n", k + 1, state.name, state.plain,
+            figures.strain_equivalent, percent_range(figures.thinning), state.converged ? "" : ", NOT converged");
         if (state.on && (std::holds_alternative<HeightFace>(state.on->face) || creased(*state.on, diagonal)))
             say("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
                 state.on->distance_mm, state.on->angle * degrees);
@@ -131,8 +131,8 @@ void print_states(const UnfoldRun& run, double diagonal)
 
 void print_blank(const char* what, const BlankFigures& blank)
 {
-    say("  {:<9} equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %, distortion {:.3g} angular, {:.3g} area{}\n",
-        what, blank.strain, 100 * blank.least_thinning, 100 * blank.most_thinning, blank.distortion.angular_rms,
+    say("  {:<9} equivalent strain up to {:.4f}, thinning {}, distortion {:.3g} angular, {:.3g} area{}\n", what,
+        blank.strain, percent_range({blank.least_thinning, blank.most_thinning}), blank.distortion.angular_rms,
         blank.distortion.area_rms, blank.converged ? "" : ", NOT converged");
 }
 

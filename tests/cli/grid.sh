@@ -26,6 +26,8 @@ run 2 'must have cuts, corners, edge_deg or "smooth_joins": true' "$channel" --p
 # A sheet of 100 x 60 mm, folded up at x = 50.
 awk 'BEGIN { for (j = 0; j <= 6; ++j) for (i = 0; i <= 10; ++i) print "v", i < 5 ? 10 * i : 50, 10 * j, i < 5 ? 0 : 10 * i - 50
              for (j = 0; j < 6; ++j) for (i = 1; i <= 10; ++i) print "f", 11 * j + i, 11 * j + i + 1, 11 * j + i + 12, 11 * j + i + 11 }' > "$out/fold.obj"
+run 0 "^blank     100 x 60 mm, 6000 mm2, " "$out/fold.obj"
+run 0 "^forming   thinning 0 %, equivalent strain up to 0.000" "$out/fold.obj"
 run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches auto --json "$out/a.json"
 grep -q '"edges": 1' "$out/a.json" || fail "the report does not tell the edge"
 run 0 "1 patch with" "$out/fold.obj" --patches auto --patch-edges 91 --json "$out/a.json"

@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "app/viewer/model/reports/lights.h"
+#include "app/viewer/panels/option_fields.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/options/part_options.h"
 #include "engine/report/text/lengths.h"
 #include "engine/report/text/sentence.h"
 
@@ -216,7 +218,7 @@ void solid_skin(Frame& frame, const PartFile& part)
                 read_with(frame, [&](Reading& reading) { reading.skin = skin; });
         ImGui::EndCombo();
     } else
-        tooltip("Surface used for the solid: its outer or inner skin, or the middle surface");
+        tooltip(help_text(option::skin));
     ImGui::EndDisabled();
 }
 
