@@ -262,12 +262,13 @@ TEST_P(ByHandOnScreens, FromAnEmptyStartToFilesAndBack)
     hands->keys("ctrl+e");
     hands->see("Export");
     hands->click_part("STEP AP242"); // not wanted
-    hands->see("2 files");
+    hands->see("3 files");
     hands->keys("Return");
-    hands->see("2 files written");
+    hands->see("3 files written");
     hands->see_no("Writing the files");
     EXPECT_GT(fs::file_size(folder / "channel-out" / "channel.iges"), 1000);
     EXPECT_GT(fs::file_size(folder / "channel-out" / "channel.glb"), 1000);
+    EXPECT_GT(fs::file_size(folder / "channel-out" / "channel.dxf"), 1000);
     hands->keys("Return");
     hands->see_no("files written");
 
@@ -355,9 +356,9 @@ TEST_P(KeyboardByHandOnScreens, TheSameWithoutTheMouse)
     });
 
     hands->keys("ctrl+e");
-    hands->see("3 files");
+    hands->see("4 files");
     hands->keys("Return");
-    hands->see("3 files written");
+    hands->see("4 files written");
     hands->keys("Return");
     hands->see_no("files written");
     EXPECT_GT(fs::file_size(folder / "channel-out" / "channel.iges"), 1000);
