@@ -6,13 +6,14 @@
 #include <cstdlib>
 #include <fmt/core.h>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/closest_point.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 
 namespace {
@@ -70,21 +71,23 @@ try {
     session.file = argv[1];
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     session.options.flatten.thickness = 0.8;
-    for (const Stage stage : chain) {
-        Gaps gaps;
-        session = run_stage(stage, session, gaps.progress());
-        gaps.print(name(stage), most);
+    std::optional<Gaps> gaps;
+    ChainHooks hooks;
+    hooks.begins = [&](Stage) { return gaps.emplace().progress(); };
+    hooks.ended = [&](Stage stage, const Session& made) {
+        gaps->print(made.options.tolerance ? fmt::format("fit within {} mm", *made.options.tolerance)
+                                           : std::string(name(stage)),
+                    most);
         if (stage == Stage::read) {
             Gaps search;
-            const ClosestPointSearch made(session.part->mesh);
+            const ClosestPointSearch made_of_part(made.part->mesh);
             search.print("search", most);
         }
-    }
+    };
+    session = completed(run_chain(std::move(session), Stage::read, Stage::fit, {}, hooks));
     for (int k = 2; k < argc; ++k) {
         session.options.tolerance = std::atof(argv[k]);
-        Gaps gaps;
-        session = run_stage(Stage::fit, session, gaps.progress());
-        gaps.print(fmt::format("fit within {} mm", argv[k]), most);
+        session = completed(run_chain(std::move(session), Stage::fit, Stage::fit, {}, hooks));
     }
 } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());

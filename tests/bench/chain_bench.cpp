@@ -12,7 +12,7 @@
 #include "engine/coons/boundary.h"
 #include "engine/forming/flatten.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 #include "engine/unfold/step/unfold_step.h"
 #include "tests/support/developable.h"
@@ -98,8 +98,7 @@ void grid_lift_fit(benchmark::State& state)
     session.part = file;
     session.blank = std::make_shared<FlattenResult>(flatten(file->mesh, mild_steel()));
     for (auto _ : state)
-        for (const Stage stage : {Stage::grid, Stage::lift, Stage::fit})
-            session = run_stage(stage, session);
+        session = completed(run_chain(std::move(session), Stage::grid, Stage::fit));
     for (const Stage stage : {Stage::grid, Stage::lift, Stage::fit})
         state.counters[std::string(name(stage)) + "_s"] = session.seconds.at(stage);
     state.counters["triangles"] = file->mesh.triangles();

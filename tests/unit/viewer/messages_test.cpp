@@ -3,6 +3,8 @@
 #include <fstream>
 #include <gmock/gmock.h>
 
+#include "app/viewer/model/document/chain.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/viewer/model_fixture.h"
@@ -103,6 +105,22 @@ TEST_F(Messages, OnOpeningSayHowManyNotesTheStepPartHas)
         EXPECT_THAT(notes, testing::Not(testing::Contains(doubt)));
     EXPECT_EQ(document.session.options.flatten.thickness, 1.25);
     EXPECT_EQ(document.thickness_from, SheetSource::file);
+}
+
+TEST_F(Messages, APartThatIsReadAndUnfoldedInOneRunHasTheThicknessOfItsFileUnlessOneIsWished)
+{
+    std::ofstream(folder / "strip.k") << sample::dyna();
+    Session session;
+    session.file = folder / "strip.k";
+    session.options.read.parts = {"7"};
+    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    for (const std::optional<double> wished : {std::optional<double>(), std::optional(0.9)}) {
+        const ChainResult result =
+            run_and_note(session, {}, Stage::read, Stage::solve, Progress(), {.thickness = wished});
+        ASSERT_FALSE(result.failed) << result.message;
+        EXPECT_EQ(result.session.options.flatten.thickness, wished.value_or(1.25));
+        EXPECT_EQ(result.made_with.flatten.thickness, wished.value_or(1.25));
+    }
 }
 
 TEST_F(Messages, OfAChangeGoWhenItIsUndone)

@@ -6,7 +6,6 @@
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
-#include "engine/pipeline/run_chain.h"
 
 namespace spia::viewer {
 namespace {
@@ -139,7 +138,8 @@ std::string out_of_date(const Document& document)
 }
 
 ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
-                         const std::function<void(const ChainResult&)>& ended, const StepWatch& watch)
+                         const ChainWishes& wishes, const std::function<void(const ChainResult&)>& ended,
+                         const StepWatch& watch)
 {
     ChainResult result;
     result.session = std::move(session);
@@ -156,9 +156,7 @@ ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, 
         if (ended)
             ended(result);
     };
-    ChainWishes wishes;
-    // the document takes that of a part
-    wishes.thickness = result.session.options.flatten.thickness;
+    hooks.part_is_ready = [&](const Session& ready) { result.session.options = ready.options; };
     try {
         const ChainRun run = run_chain(result.session, from, to, wishes, hooks);
         if (run.failure)

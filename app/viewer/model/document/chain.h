@@ -6,6 +6,7 @@
 #include "app/viewer/model/document/document.h"
 #include "engine/core/progress.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/pipeline/run_chain.h"
 
 namespace spia::viewer {
 
@@ -40,11 +41,13 @@ double share_of_time(Stage from, Stage to);
 
 /// Runs the stages from `from` to `to` and notes the options they are made with; never throws. What
 /// a cancelled or failed run has finished is kept. The deformation of the session is left out: it
-/// is of the surface that there was.
+/// is of the surface that there was. The options of the result have the wishes of a part that was
+/// read.
 /// @param ended  called on this thread after every stage, with all that has been finished so far
 /// @param watch  sees the blank while it is solved for, on this thread
 ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
-                         const std::function<void(const ChainResult&)>& ended = {}, const StepWatch& watch = {});
+                         const ChainWishes& wishes = {}, const std::function<void(const ChainResult&)>& ended = {},
+                         const StepWatch& watch = {});
 
 /// What to do about a stage that failed, in one sentence. @param options that it was to be made
 /// with

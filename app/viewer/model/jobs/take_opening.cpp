@@ -162,7 +162,7 @@ void ViewerModel::report_failed(const ChainResult& result)
     fitter_.fit(state_, View::part);
 }
 
-void ViewerModel::part_opened()
+void ViewerModel::part_opened(const SessionOptions& read_with)
 {
     Document& document = state_.document;
     if (!document.session.part)
@@ -171,9 +171,8 @@ void ViewerModel::part_opened()
     state_.view.clip.on = false; // of another part
     fitter_.fit(state_);
     const PartFile& part = *document.session.part;
-    double& thickness = document.session.options.flatten.thickness;
-    if (const auto found = part.thickness_mm; found && !project_) {
-        thickness = *found;
+    if (part.thickness_mm && !project_) {
+        document.session.options.flatten.thickness = read_with.flatten.thickness;
         document.thickness_from = SheetSource::file;
     }
     const size_t notes = notes_on_reading(part).size() + part.doctor.findings.size();

@@ -64,7 +64,7 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
         state_.refused.reset();
         state_.refused_file.reset();
         state_.fault.reset();
-        part_opened();
+        part_opened(result.session.options);
     }
     if (project_)
         project_opened(result.search);

@@ -114,11 +114,14 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
     state_.job = JobView{};
     state_.job.running = true;
     state_.job.title = std::move(title);
+    ChainWishes wishes;
+    if (opening_beside_ ? opening_beside_->project : project_) // has the thickness that its user chose
+        wishes.thickness = session.options.flatten.thickness;
     chain_job_ = std::make_unique<Job<ChainResult>>(
-        [session = std::move(session), made_with = document.made_with, from, to,
+        [session = std::move(session), made_with = document.made_with, from, to, wishes = std::move(wishes),
          live = live_](const Progress& progress) {
             return run_and_note(
-                session, made_with, from, to, progress,
+                session, made_with, from, to, progress, wishes,
                 [&](ChainResult result) { live->so_far.post(std::move(result)); },
                 [&](const Eigen::Matrix2Xd& X, const NewtonStep& step) { live->see(X, step); });
         },

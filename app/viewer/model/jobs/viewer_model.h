@@ -124,7 +124,7 @@ private:
                              ///< another
     void show_step(std::optional<int> step, double position);
     void report_steps_run(const StepsOutcome& outcome);
-    void part_opened();
+    void part_opened(const SessionOptions& read_with);
     void project_opened(const std::shared_ptr<const ClosestPointSearch>& search);
 
     std::filesystem::path assets_;
