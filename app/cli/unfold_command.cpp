@@ -35,6 +35,7 @@
 #include "engine/pipeline/unfold_states.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/report_json.h"
+#include "engine/report/json/unfold_report_json.h"
 #include "engine/report/text/number_text.h"
 #include "engine/unfold/automatic_unfolding.h"
 #include "engine/unfold/map_lines.h"
@@ -101,7 +102,7 @@ void print_map(const BendMap& map, const BendTable& table)
             counted(small, "bend of the table is not", "bends of the table are not"));
 }
 
-void print_states(const UnfoldRun& run, double diagonal)
+void print_states(const UnfoldRun& run, const TriMesh& part, double diagonal)
 {
     for (size_t k = 0; k < run.states.size(); ++k) {
         const UnfoldState& state = run.states[k];
@@ -124,8 +125,8 @@ void print_states(const UnfoldRun& run, double diagonal)
     }
     if (!run.blank)
         return;
-    const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
-    say("blank     {:.6g} x {:.6g} mm, {}\n", size[0], size[1],
+    const BlankSize blank = blank_size(part, *run.blank);
+    say("blank     {:.6g} x {:.6g} mm, {:.6g} mm2, {}\n", blank.sides()[0], blank.sides()[1], blank.area,
         counted(run.flipped, "flipped triangle", "flipped triangles"));
 }
 
@@ -459,7 +460,7 @@ int unfold(const UnfoldArguments& arguments)
     if (!arguments.json.empty())
         write_atomically(arguments.json, unfold_report_json(arguments.part, part, map, steps, run, findings, files,
                                                             both, run.blank ? &fibre.table : nullptr));
-    print_states(run, bounding_diagonal(part.mesh));
+    print_states(run, part.mesh, bounding_diagonal(part.mesh));
     if (run.blank) {
         print_bends(fibre.table);
         const auto laid = [](const SheetBend& bend) { return bend.laid; };

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-Json xyz(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
-
 } // namespace
 
 std::vector<std::string> all_notes(const BendTable& table)
@@ -45,36 +43,6 @@ std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& tabl
     if (k_is_given)
         doubts.insert(doubts.end(), table.notes.begin(), table.notes.end());
     return doubts;
-}
-
-Json bend_table_json(const BendTable& table)
-{
-    Json bends = Json::array();
-    for (const SheetBend& bend : table.bends) {
-        Json lines = Json::array();
-        for (const BlankSegment& piece : bend.line)
-            lines.push_back({piece.from[0], piece.from[1], piece.to[0], piece.to[1]});
-        bends.push_back({{"inner_radius_mm", bend.inner_radius},
-                         {"angle_deg", bend.angle * degrees},
-                         {"direction", bend.up ? "up" : "down"},
-                         {"k_factor", bend.k},
-                         {"allowance_mm", bend.allowance},
-                         {"deduction_mm", bend.deduction},
-                         {"length_mm", bend.length},
-                         {"radius_from", bend.sharp    ? "sharp"
-                                         : bend.stated ? "CAD"
-                                                       : "mesh"},
-                         {"laid_by_k", bend.laid},
-                         {"why_not", bend.laid ? Json(nullptr) : Json(bend.why_not)},
-                         {"way_out", bend.laid ? Json(nullptr) : Json(bend.way_out)},
-                         {"place_mm", xyz(bend.place)},
-                         {"axis", xyz(bend.axis)},
-                         {"lines_mm", std::move(lines)}});
-    }
-    return {{"surface", table.surface},
-            {"thickness_mm", table.thickness},
-            {"bends", std::move(bends)},
-            {"notes", all_notes(table)}};
 }
 
 std::string describe(const SheetBend& bend)

@@ -2,14 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/json_file.h"
 #include "engine/part/part_file.h"
 #include "engine/unfold/plan/bend_table.h"
 
 namespace spia {
-
-/// The member "bend_table" of the reports, the contract of engine/pipeline/README.md.
-Json bend_table_json(const BendTable& table);
 
 /// What the table has to say besides its rows: bends that are not laid, and where a K factor has no
 /// effect.

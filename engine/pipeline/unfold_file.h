@@ -4,9 +4,7 @@
 #include <vector>
 
 #include "engine/part/part_file.h"
-#include "engine/unfold/plan/bend_table.h"
 #include "engine/unfold/plan/bends.h"
-#include "engine/unfold/step/polish.h"
 #include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
@@ -36,15 +34,5 @@ std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps, co
 /// Likewise of any steps: faces are named by the regions and bends that lie wholly among them, the
 /// others by their numbers in the part's file. A face of the file that was split is named whole.
 std::string unfold_script_json(const PartFile& part, const BendMap& map, const UnfoldScript& steps);
-
-/// What a run gave (schema spia.unfold-result/1, engine/pipeline/README.md).
-/// @param files    written, in order
-/// @param polished null: not asked for, or there was none
-/// @param table    of the bends on the blank; null: not made
-std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,
-                               const UnfoldScript& steps, const UnfoldRun& run,
-                               const std::vector<std::string>& findings,
-                               const std::vector<std::filesystem::path>& files, const PolishedBlank* polished = nullptr,
-                               const BendTable* table = nullptr);
 
 } // namespace spia

@@ -13,12 +13,12 @@
 #include "engine/options/command_line_json.h"
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/applied_process.h"
-#include "engine/pipeline/bend_report.h"
-#include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/attempts_json.h"
+#include "engine/report/json/bend_table_json.h"
+#include "engine/report/json/certificate_json.h"
 #include "engine/report/json/surface_json.h"
 
 namespace spia {

@@ -5,6 +5,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/run_chain.h"
+#include "engine/report/json/certificate_json.h"
 #include "engine/report/json/report_json.h"
 #include "tests/support/joined_patches.h"
 

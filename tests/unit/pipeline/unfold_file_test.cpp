@@ -9,6 +9,8 @@
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/mesh/topology.h"
+#include "engine/report/json/unfold_report_json.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -321,6 +323,10 @@ TEST_F(UnfoldFile, TheReportSaysWhatCameOfEachStep)
     EXPECT_TRUE(json["failure"].is_null());
     EXPECT_EQ(json["findings"], Json{"a finding"});
     EXPECT_EQ(json["blank"]["flipped_triangles"], 0);
+    TriMesh flat = part.mesh;
+    flat.position.topRows(2) = run.blank->position;
+    flat.position.row(2).setZero();
+    EXPECT_NEAR(json["blank"]["area_mm2"], area(flat), 1e-6);
     EXPECT_NEAR(json["part"]["area_mm2"], 7000 + 340 * 30 + 260 * 8, 1e-6);
 }
 

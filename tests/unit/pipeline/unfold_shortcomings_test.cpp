@@ -6,6 +6,7 @@
 #include "engine/core/json_file.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/unfold_file.h"
+#include "engine/report/json/unfold_report_json.h"
 #include "tests/support/bent_parts.h"
 
 namespace spia {
