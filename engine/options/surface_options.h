@@ -71,14 +71,14 @@ inline constexpr Option degree_u{
 inline constexpr Option degree_v{
     .name = "", .key = "degree_v", .range = degree.range, .help = "of the surface along v"};
 inline constexpr Choice curve_ends[] = {
-    {"averaged", "free", "with the knots averaged from the data, accurate up to the border"},
-    {"clamped", "along the part", "with the slope estimated from the part, accurate up to the border"},
+    {"averaged", "averaged knots", "free at the border, accurate up to the border"},
+    {"clamped", {}, "with the slope estimated from the part, accurate up to the border"},
     {"natural", {}, "without curvature at the border as in the paper (degree 3 only), less accurate there"}};
 inline constexpr Option ends{.name = "ends",
                              .key = "ends",
                              .choices = curve_ends,
-                             .help = "how the surface runs out at its borders",
-                             .label = "Borders"};
+                             .help = "of the surface at its borders",
+                             .label = "End conditions"};
 inline constexpr Choice fit_parameter_choices[] = {{"blank"}, {"corrected"}};
 inline constexpr Option fit_parameters{
     .name = "fit-parameters",
