@@ -83,10 +83,10 @@ struct WorstSpot {
 };
 
 struct Zones {
-    std::vector<Zone> zone;                  ///< per face
-    Eigen::VectorXd distance;                ///< per face, engineering major strain that is left up to the curve
-                                             ///< at the same minor strain, below 0 beyond it; no number where the
-                                             ///< sheet has no curve; empty if there is none at all
+    std::vector<Zone> zone; ///< per face
+    /// per face, engineering major strain that is left up to the curve at the same minor strain,
+    /// below 0 beyond it; no number where the sheet has no curve; empty if there is none at all
+    Eigen::VectorXd distance;
     std::array<ZoneShare, zone_count> share; ///< by the number of the zone
     std::vector<WorstSpot> spots;            ///< worst zone first, in it worst value first
 };

@@ -72,8 +72,9 @@ private:
                                            ///< the middle one
     std::vector<std::vector<int>> beside_; ///< per vertex: those next to it along the border;
                                            ///< empty: not asked for yet
-    Eigen::Matrix3Xd wall_;                ///< per vertex of the solid: area vectors of the faces across the
-                                           ///< thickness there, outwards; 0 without
+    /// per vertex of the solid: area vectors of the faces across the thickness there, outwards; 0
+    /// without
+    Eigen::Matrix3Xd wall_;
 
     Eigen::Vector3d start(size_t v) const { return solid_.position.col(middle_.source_vertex[v]); }
     static Eigen::Vector3d across(const StatedSurface& cylinder, const Eigen::Vector3d& way)

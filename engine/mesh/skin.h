@@ -20,8 +20,9 @@ struct SkinMesh {
     SheetSide side = SheetSide::outer; ///< whose triangles they are: where CAD faces of them lie
     std::vector<int> source_face;      ///< per triangle that of the solid, ascending; repeats where
                                        ///< one was divided
-    int straightened = 0;              ///< vertices of a middle surface at slanted edges that went straight in,
-                                       ///< for triangles not to turn over
+    /// vertices of a middle surface at slanted edges that went straight in, for triangles not to
+    /// turn over
+    int straightened = 0;
 };
 
 /// The middle surface is the outer skin moved inwards by half the thickness: where the inner skin

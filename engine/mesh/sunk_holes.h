@@ -22,10 +22,11 @@ struct SunkHole {
                                                        ///< narrowest; 0: it is not round there
     double depth = 0;                                  ///< mm, from the skin to there; 0: the skin
                                                        ///< is not plane
-    bool counterbore = false;           ///< its wall at the skin is square to the sheet; else it is sloped
-    int face = -1;                      ///< of the wall, a triangle of the solid
-    std::vector<int> outer = {};        ///< vertices of the solid where the hole meets the outer skin,
-                                        ///< ascending; of cut off ones none
+    /// its wall at the skin is square to the sheet; else it is sloped
+    bool counterbore = false;
+    int face = -1; ///< of the wall, a triangle of the solid
+    /// vertices of the solid where the hole meets the outer skin, ascending; of cut off ones none
+    std::vector<int> outer = {};
     bool cut_off = false;               ///< there is not all of the circle: a bend, a border or
                                         ///< another hole is in it
     std::vector<MarkOutline> edge = {}; ///< what there is instead of it

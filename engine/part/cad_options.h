@@ -7,13 +7,15 @@ namespace spia {
 struct CadOptions {
     std::optional<double> sewing_tolerance = {}; ///< mm, gaps up to this are closed; not given:
                                                  ///< found from the gaps; 0: the faces are not sewn
-    std::optional<double> deflection = {}; ///< mm between triangle and face; not given: 1/2000 of the diagonal of a
-                                           ///< box around faces and control points
-    double angle = 0.35;                   ///< radians between the tangents at both ends of a chord
-    bool leave_out_unmeshed = false;       ///< faces that cannot be read or meshed are left out, and the
-                                           ///< report names them; else the part is refused for them
-    bool keep_triangles = false;           ///< those of the CAD faces stay; else slivers on a part that
-                                           ///< does not unroll are remeshed
+    /// mm between triangle and face; not given: 1/2000 of the diagonal of a box around faces and
+    /// control points
+    std::optional<double> deflection = {};
+    double angle = 0.35; ///< radians between the tangents at both ends of a chord
+    /// faces that cannot be read or meshed are left out, and the report names them; else the part
+    /// is refused for them
+    bool leave_out_unmeshed = false;
+    /// those of the CAD faces stay; else slivers on a part that does not unroll are remeshed
+    bool keep_triangles = false;
 
     friend bool operator==(const CadOptions&, const CadOptions&) = default;
 };

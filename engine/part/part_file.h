@@ -53,8 +53,8 @@ struct CadOrigin {
     CadTree tree = {};                       ///< what the file holds
     std::vector<StatedSurface> surface = {}; ///< per CAD face of the file: the plane or cylinder it
                                              ///< lies on
-    StatedCurves curves = {};                ///< lines and circles of the edges; vertices are those of the file,
-                                             ///< also once it is remeshed
+    /// lines and circles of the edges; vertices are those of the file, also once it is remeshed
+    StatedCurves curves = {};
 };
 
 /// What a part that is one surface of a solid of sheet comes from.

@@ -46,30 +46,34 @@ struct CadContent {
     std::string unit;                                   ///< of the file, e.g. "INCH"; lengths here
                                                         ///< are mm; empty: the format has none
                                                         ///< (BREP)
-    double deflection = 0;                              ///< mm, largest distance between triangle and face that was
-                                                        ///< asked for
-    double sewing_tolerance = 0;                        ///< mm; 0: the faces were taken as they are
-    double half_an_edge = 0;                            ///< mm: what nearly all edges are twice as long as; gaps are
-                                                        ///< closed unasked up to it
-    double shortest_edge = 0;                           ///< mm
-    int free_before = 0;                                ///< edges of one face only, before sewing
-    int free_after = 0;                                 ///< and after it
-    std::vector<CadGap> gaps;                           ///< at edges that two faces share now, the widest first
-    std::vector<std::string> lost;                      ///< labels of faces and bodies of the file that could not be
-                                                        ///< made, and may be missing; without numbers
-    std::vector<std::string> lost_elsewhere;            ///< those of other bodies than were chosen
-    std::vector<std::string> aside;                     ///< labels of damaged entities that no shape needs
-    std::vector<int> unmeshed;                          ///< faces without triangles, but for slivers
-    std::vector<CadSliver> slivers;                     ///< that were closed
-    bool unmeshed_left_out = false;                     ///< as was asked for
-    std::vector<std::array<int, 2>> doubled;            ///< faces that were left out, each with the one on
-                                                        ///< which it lies
-    std::vector<StatedSurface> surface;                 ///< per face of the file: what it lies on; of faces
-                                                        ///< not taken another kind
-    StatedCurves curves;                                ///< lines and circles of the edges of what was taken;
-                                                        ///< vertices of the soup
-    std::vector<int> overlapping;                       ///< faces at edges of three or more triangles, once
-                                                        ///< points at one place are one
+    /// mm, largest distance between triangle and face that was asked for
+    double deflection = 0;
+    double sewing_tolerance = 0; ///< mm; 0: the faces were taken as they are
+    /// mm: what nearly all edges are twice as long as; gaps are closed unasked up to it
+    double half_an_edge = 0;
+    double shortest_edge = 0; ///< mm
+    int free_before = 0;      ///< edges of one face only, before sewing
+    int free_after = 0;       ///< and after it
+    /// at edges that two faces share now, the widest first
+    std::vector<CadGap> gaps;
+    /// labels of faces and bodies of the file that could not be made, and may be missing; without
+    /// numbers
+    std::vector<std::string> lost;
+    std::vector<std::string> lost_elsewhere; ///< those of other bodies than were chosen
+    /// labels of damaged entities that no shape needs
+    std::vector<std::string> aside;
+    /// faces without triangles, but for slivers
+    std::vector<int> unmeshed;
+    std::vector<CadSliver> slivers; ///< that were closed
+    bool unmeshed_left_out = false; ///< as was asked for
+    /// faces that were left out, each with the one on which it lies
+    std::vector<std::array<int, 2>> doubled;
+    /// per face of the file: what it lies on; of faces not taken another kind
+    std::vector<StatedSurface> surface;
+    /// lines and circles of the edges of what was taken; vertices of the soup
+    StatedCurves curves;
+    /// faces at edges of three or more triangles, once points at one place are one
+    std::vector<int> overlapping;
 };
 
 /// Whether the ending (lower case, with its dot) is .step, .stp, .iges, .igs or .brep.

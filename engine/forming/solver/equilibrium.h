@@ -20,7 +20,8 @@ struct EquilibriumResult {
     std::vector<NewtonStep> steps;
     double residual = 0; ///< relative, at position
     Eigen::Vector3d resultant =
-        Eigen::Vector3d::Zero();              ///< of the forces that hold the blank: N, N, N mm about its centre
+        /// of the forces that hold the blank: N, N, N mm about its centre
+        Eigen::Vector3d::Zero();
     std::vector<AttemptReport> attempts = {}; ///< of solve_relaxed_equilibrium()
 };
 

@@ -253,7 +253,8 @@ private:
         if (!report_.converged)
             return false;
         report_.relaxed_vertices = int(std::count(work_.relaxed().begin(), work_.relaxed().end(), char(1)));
-        report_.converged = report_.relaxed_vertices < vertices; // else nothing is left of the system
+        // else nothing is left of the system
+        report_.converged = report_.relaxed_vertices < vertices;
         report_.system = !report_.converged             ? SolvedSystem::energy
                          : report_.relaxed_vertices > 0 ? SolvedSystem::relaxed
                                                         : SolvedSystem::continued;

@@ -73,7 +73,8 @@ std::string fixed(double value, int digits)
 {
     const std::string text = fmt::format("{:.{}f}", value, digits);
     return typeset(text.find_first_of("123456789") == std::string::npos && value < 0 ? text.substr(1)
-                                                                                     : text); // no -0.0
+                                                                                     // no -0.0
+                                                                                     : text);
 }
 std::string significant(double value) { return typeset(fmt::format("{:.3g}", value)); }
 

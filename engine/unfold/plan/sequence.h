@@ -21,11 +21,13 @@ std::string_view name(UnfoldKind kind);
 /// One step; plain, to be edited.
 struct PlannedStep {
     UnfoldKind kind = UnfoldKind::lay;
-    std::string name;                     ///< e.g. "region 4 onto region 1"
-    UnfoldPick pick;                      ///< of an unroll or a flatten: nothing is fixed, all is freed; an unroll
-                                          ///< has carrying faces all the same
-    double within_mm = 0;                 ///< how far the carrying faces may be from the plane, cylinder or cone
-                                          ///< that is looked for; 0: as unfold_step()
+    std::string name; ///< e.g. "region 4 onto region 1"
+    /// of an unroll or a flatten: nothing is fixed, all is freed; an unroll has carrying faces all
+    /// the same
+    UnfoldPick pick;
+    /// how far the carrying faces may be from the plane, cylinder or cone that is looked for; 0: as
+    /// unfold_step()
+    double within_mm = 0;
     double offset_mm = 0;                 ///< the target is moved so far to its outer side
     std::optional<double> extent_mm = {}; ///< how far it goes on beyond the carrying faces; none:
                                           ///< as far as the sheet does

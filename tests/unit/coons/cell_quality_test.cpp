@@ -78,7 +78,8 @@ TEST(CellQuality, TheScaledJacobianIsTheSineOfTheSharpestAngle)
 TEST(CellQuality, TheWorstCellIsTheOneWithTheSharpestAngle)
 {
     QuadGrid grid = unit_cells(4, 2);
-    grid.position.col(grid.node(4, 2)).head<2>() << 3.6, 1.6; // of the last cell a corner is drawn in
+    // of the last cell a corner is drawn in
+    grid.position.col(grid.node(4, 2)).head<2>() << 3.6, 1.6;
     const CellQuality quality = cell_quality(grid);
     EXPECT_NEAR(quality.min_scaled_jacobian, 5. / 13, 1e-12);
     EXPECT_EQ(quality.worst_cell, 7);

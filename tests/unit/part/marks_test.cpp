@@ -204,8 +204,8 @@ TEST(Marks, TextOfFewLongTrianglesIsPassedOver)
 
 TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
 {
-    const double height[] = {3, 1.5, 0}; // of the plate's skins; the text is on the upper one, which is the
-                                         // outer or the inner one
+    // of the plate's skins; the text is on the upper one, which is the outer or the inner one
+    const double height[] = {3, 1.5, 0};
     for (const int divisions : {0, 2})
         for (const Skin skin : {Skin::outer, Skin::middle, Skin::inner}) {
             const PartFile part = examined(shapes::divided(plate_with_text(0.3), divisions), skin);

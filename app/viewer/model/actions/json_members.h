@@ -205,7 +205,8 @@ template <class T> void read(const Json& json, T& value, const Place& place)
             read(json, inner, place);
             value = std::move(inner);
         }
-    } else if constexpr (std::is_same_v<T, std::array<Camera, 4>>) { // by view, so that one alone can be given
+        // by view, so that one alone can be given
+    } else if constexpr (std::is_same_v<T, std::array<Camera, 4>>) {
         if (!json.is_object())
             place.fail("must be an object { }");
         for (const auto& [key, camera] : json.items()) {

@@ -49,11 +49,12 @@ std::vector<MaterialFault> faults_to_save(const std::vector<Grade>& grades, cons
 
 /// What a tensile test and a sheet's buyer would call its figures. Strains are logarithmic.
 struct GradeFigures {
-    double proof_MPa = 0;         ///< Rp0.2
-    double strength_MPa = 0;      ///< Rm, engineering
-    double uniform_strain = 0;    ///< where necking begins [Considere 1885]
-    double n = 0;                 ///< slope of ln stress over ln strain between 0.10 and 0.20, or up
-                                  ///< to the uniform strain if that is less [ISO 10275]
+    double proof_MPa = 0;      ///< Rp0.2
+    double strength_MPa = 0;   ///< Rm, engineering
+    double uniform_strain = 0; ///< where necking begins [Considere 1885]
+    /// slope of ln stress over ln strain between 0.10 and 0.20, or up to the uniform strain if that
+    /// is less [ISO 10275]
+    double n = 0;
     double normal_anisotropy = 0; ///< (r0 + 2 r45 + r90) / 4
     double planar_anisotropy = 0; ///< (r0 - 2 r45 + r90) / 2
 };

@@ -163,24 +163,26 @@ struct ViewerState {
     std::filesystem::path project;                    ///< file it was saved to or opened from;
                                                       ///< empty: none yet
     bool unsaved = false;
-    std::optional<ExportOutcome> exported;               ///< none since the last export was begun
-    bool shape_dragged = false;                          ///< handles of the surface follow the mouse
-    std::optional<int> hovered;                          ///< face under the mouse
-    std::shared_ptr<const PartFile> refused;             ///< the part that could not be taken, to look at its
-                                                         ///< faults; null: none
-    std::optional<RefusedFile> refused_file;             ///< whose mesh that is; null: the file of the document
-    std::optional<ShownFault> fault;                     ///< the one that is looked at
-    std::optional<ShownSpot> spot;                       ///< likewise a face
-    std::optional<std::filesystem::path> read_and_waits; ///< a file that is read and would take the place of work
-                                                         ///< that is not saved: the user is asked
-    std::optional<int> hovered_vertex;                   ///< which a click would pick, with a tool for
-                                                         ///< vertices
-    std::optional<FileListing> listing;                  ///< the file that is looked into
-    std::shared_ptr<const std::vector<Grade>> grades;    ///< that can be chosen, see grades.h; never
-                                                         ///< null
-    std::shared_ptr<const Reference> reference;          ///< an earlier result to be compared with;
-                                                         ///< null: none
-    std::shared_ptr<const Differences> differences;      ///< from it, see comparison.h; null: none
+    std::optional<ExportOutcome> exported; ///< none since the last export was begun
+    /// handles of the surface follow the mouse
+    bool shape_dragged = false;
+    std::optional<int> hovered; ///< face under the mouse
+    /// the part that could not be taken, to look at its faults; null: none
+    std::shared_ptr<const PartFile> refused;
+    /// whose mesh that is; null: the file of the document
+    std::optional<RefusedFile> refused_file;
+    std::optional<ShownFault> fault; ///< the one that is looked at
+    std::optional<ShownSpot> spot;   ///< likewise a face
+    /// a file that is read and would take the place of work that is not saved: the user is asked
+    std::optional<std::filesystem::path> read_and_waits;
+    /// which a click would pick, with a tool for vertices
+    std::optional<int> hovered_vertex;
+    std::optional<FileListing> listing; ///< the file that is looked into
+    /// that can be chosen, see grades.h; never null
+    std::shared_ptr<const std::vector<Grade>> grades;
+    std::shared_ptr<const Reference> reference;     ///< an earlier result to be compared with;
+                                                    ///< null: none
+    std::shared_ptr<const Differences> differences; ///< from it, see comparison.h; null: none
 };
 
 /// How far the view of the part is unfolded: as chosen, as far as there are states that hold.
