@@ -10,8 +10,8 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/pipeline/files/seam_file.h"
 #include "engine/pipeline/flat_thickness.h"
-#include "engine/pipeline/seam_file.h"
 #include "engine/report/json/report_json.h"
 
 namespace spia::cli {

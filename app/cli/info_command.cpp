@@ -9,7 +9,7 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/seam_file.h"
+#include "engine/pipeline/files/seam_file.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/report_json.h"
 

@@ -8,9 +8,9 @@
 #include "engine/core/text.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/pipeline/applied_process.h"
-#include "engine/pipeline/bend_report.h"
-#include "engine/pipeline/certificate_report.h"
-#include "engine/pipeline/iga_outputs.h"
+#include "engine/pipeline/blank/bend_report.h"
+#include "engine/pipeline/outputs/iga_outputs.h"
+#include "engine/pipeline/shortcomings/certificate_report.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/text/number_text.h"
 

@@ -4,7 +4,7 @@
 #include "engine/options/part_options.h"
 #include "engine/options/sheet_options.h"
 #include "engine/options/surface_options.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 
 namespace spia::cli {
 namespace {

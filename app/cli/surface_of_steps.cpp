@@ -7,8 +7,8 @@
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/pipeline/outputs.h"
-#include "engine/pipeline/part_bends.h"
+#include "engine/pipeline/blank/part_bends.h"
+#include "engine/pipeline/outputs/outputs.h"
 #include "engine/report/json/report_json.h"
 
 namespace spia::cli {

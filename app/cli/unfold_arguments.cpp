@@ -4,8 +4,8 @@
 #include "engine/options/part_options.h"
 #include "engine/options/sheet_options.h"
 #include "engine/options/surface_options.h"
-#include "engine/pipeline/outputs.h"
-#include "engine/pipeline/unfold_outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
+#include "engine/pipeline/outputs/unfold_outputs.h"
 
 namespace spia::cli {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "engine/forming/solver/energy_stage.h"
 #include "engine/forming/solver/membrane.h"
-#include "engine/mesh/distortion.h"
-#include "engine/mesh/outline.h"
+#include "engine/mesh/flat/distortion.h"
+#include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/fill_holes.h"
-#include "engine/mesh/outline.h"
+#include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

@@ -12,7 +12,7 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/exchange/mesh/mesh_file.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 namespace spia {
 namespace {

@@ -14,7 +14,7 @@
 #include "engine/forming/solver/seen_along.h"
 #include "engine/forming/solver/sheet_fields.h"
 #include "engine/forming/solver/volume_error.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/orient2d.h"
 #include "engine/mesh/topology.h"
 

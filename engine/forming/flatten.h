@@ -11,7 +11,7 @@
 #include "engine/forming/solver/initial_guess.h"
 #include "engine/forming/solver/skin_strain.h"
 #include "engine/forming/solver/stamping_direction.h"
-#include "engine/mesh/overlap.h"
+#include "engine/mesh/flat/overlap.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {

@@ -7,7 +7,7 @@
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
 #include "engine/mesh/fill_holes.h"
-#include "engine/mesh/outline.h"
+#include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

@@ -9,7 +9,7 @@
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
 #include "engine/layout/spokes.h"
-#include "engine/mesh/inside_polygon.h"
+#include "engine/mesh/flat/inside_polygon.h"
 #include "engine/options/surface_options.h"
 
 namespace spia {

@@ -10,7 +10,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/layout/plane_lines.h"
-#include "engine/mesh/inside_polygon.h"
+#include "engine/mesh/flat/inside_polygon.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/project.h"

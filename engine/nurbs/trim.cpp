@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/mesh/outline.h"
+#include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/read_number.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 namespace spia {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/mesh/corner_seam.h"
+#include "engine/mesh/cut/corner_seam.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/part_options.h"
 

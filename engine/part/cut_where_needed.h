@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/soup.h"
 #include "engine/part/part_file.h"
 

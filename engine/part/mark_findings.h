@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "engine/mesh/doctor.h"
-#include "engine/mesh/skin.h"
-#include "engine/mesh/sunk_holes.h"
+#include "engine/mesh/doctor/doctor.h"
+#include "engine/mesh/solid/skin.h"
+#include "engine/mesh/solid/sunk_holes.h"
 
 namespace spia {
 

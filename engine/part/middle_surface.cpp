@@ -5,10 +5,10 @@
 #include <string>
 
 #include "engine/core/text.h"
-#include "engine/mesh/holes_over_bends.h"
-#include "engine/mesh/onto_surfaces.h"
-#include "engine/mesh/round_border.h"
-#include "engine/mesh/sunk_holes.h"
+#include "engine/mesh/solid/holes_over_bends.h"
+#include "engine/mesh/solid/onto_surfaces.h"
+#include "engine/mesh/solid/round_border.h"
+#include "engine/mesh/solid/sunk_holes.h"
 #include "engine/part/mark_findings.h"
 
 namespace spia {

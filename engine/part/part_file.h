@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "engine/core/length_unit.h"
-#include "engine/mesh/doctor.h"
-#include "engine/mesh/skin.h"
-#include "engine/mesh/stated_curve.h"
-#include "engine/mesh/stated_surface.h"
+#include "engine/mesh/doctor/doctor.h"
+#include "engine/mesh/solid/skin.h"
+#include "engine/mesh/solid/stated_curve.h"
+#include "engine/mesh/solid/stated_surface.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/part/cad_tree.h"
 #include "engine/part/deck_part.h"

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "engine/core/length_unit.h"
-#include "engine/mesh/cut.h"
-#include "engine/mesh/doctor.h"
-#include "engine/mesh/skin.h"
+#include "engine/mesh/cut/cut.h"
+#include "engine/mesh/doctor/doctor.h"
+#include "engine/mesh/solid/skin.h"
 #include "engine/part/cad_options.h"
 #include "engine/part/mesh_targets.h"
 #include "engine/remesh/remesh.h"

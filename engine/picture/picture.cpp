@@ -9,7 +9,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/colour_map.h"
 #include "engine/core/text.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/picture/canvas.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

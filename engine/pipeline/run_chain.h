@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/core/progress.h"
-#include "engine/pipeline/deform_file.h"
+#include "engine/pipeline/files/deform_file.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {

@@ -11,7 +11,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/topology.h"
 #include "engine/remesh/edge_sizes.h"
 #include "engine/remesh/incremental.h"

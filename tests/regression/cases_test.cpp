@@ -10,10 +10,10 @@
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/part_options.h"
+#include "engine/pipeline/files/seam_file.h"
 #include "engine/pipeline/run_chain.h"
-#include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/session.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 
 namespace spia {
 namespace {

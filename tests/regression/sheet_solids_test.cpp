@@ -10,7 +10,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/curvature.h"
-#include "engine/mesh/outline.h"
+#include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"

@@ -29,8 +29,10 @@ rooms() {
             grep -vE "#include \"engine/$module/($before)/")
     done
 }
+rooms mesh doctor cut flat solid
 rooms forming material process solver
 rooms unfold target plan step
+rooms pipeline files blank outputs shortcomings
 rooms report text figures json html
 while IFS= read -r line; do
     complain "only engine/exchange/cad and the lines as STEP and IGES know the CAD kernel: $line"

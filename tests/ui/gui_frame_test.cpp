@@ -7,7 +7,7 @@
 #include <imgui_internal.h>
 #include <stdexcept>
 
-#include "app/viewer/panels/export_dialog.h"
+#include "app/viewer/panels/dialogs/export_dialog.h"
 #include "app/viewer/panels/screen_text.h"
 #include "app/viewer/panels/widgets.h"
 

@@ -6,7 +6,7 @@
 #include "app/viewer/model/picking/measuring.h"
 #include "app/viewer/model/picking/vertex_picking.h"
 #include "app/viewer/model/reports/comparison.h"
-#include "app/viewer/panels/surface_step.h"
+#include "app/viewer/panels/steps/surface_step.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/colours.h"

@@ -1,8 +1,8 @@
 #include <optional>
 #include <tuple>
 
-#include "app/viewer/panels/dialog_parts.h"
-#include "app/viewer/panels/step_parts.h"
+#include "app/viewer/panels/dialogs/dialog_parts.h"
+#include "app/viewer/panels/steps/step_parts.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {

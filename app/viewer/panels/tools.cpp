@@ -4,7 +4,7 @@
 #include <imgui.h>
 #include <imgui_internal.h> // ClearActiveID
 
-#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/dialogs/dialog_parts.h"
 #include "app/viewer/panels/tool_table.h"
 #include "app/viewer/panels/view_tools.h"
 #include "app/viewer/panels/widgets.h"

@@ -10,7 +10,7 @@
 
 #include "app/viewer/model/reports/typed_number.h"
 #include "app/viewer/model/reports/wrapped_text.h"
-#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/dialogs/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "engine/options/option.h"
 #include "engine/report/text/shown_lengths.h"

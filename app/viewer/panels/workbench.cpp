@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/reports/comparison.h"
-#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/dialogs/dialog_parts.h"
 #include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/lights.h"
 #include "app/viewer/panels/widgets.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <TopoDS_Edge.hxx>
 
-#include "engine/mesh/stated_curve.h"
+#include "engine/mesh/solid/stated_curve.h"
 
 namespace spia {
 

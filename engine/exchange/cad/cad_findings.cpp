@@ -12,7 +12,7 @@
 
 #include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 #include "engine/options/part_options.h"
 
 namespace spia {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/mesh/solid/stated_curve.h"
 #include "engine/mesh/soup.h"
-#include "engine/mesh/stated_curve.h"
 #include "engine/part/cad_options.h"
 
 namespace spia {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/mesh/stated_surface.h"
+#include "engine/mesh/solid/stated_surface.h"
 
 namespace spia {
 

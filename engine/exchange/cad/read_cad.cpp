@@ -23,8 +23,8 @@
 #include "engine/exchange/cad/cad_swept.h"
 #include "engine/exchange/cad/child_process.h"
 #include "engine/exchange/cad/occt_session.h"
+#include "engine/mesh/doctor/weld.h"
 #include "engine/mesh/edge_uses.h"
-#include "engine/mesh/weld.h"
 #include "engine/options/part_options.h"
 
 namespace spia {

@@ -10,9 +10,9 @@
 
 #include "engine/core/length_unit.h"
 #include "engine/core/progress.h"
+#include "engine/mesh/solid/stated_curve.h"
+#include "engine/mesh/solid/stated_surface.h"
 #include "engine/mesh/soup.h"
-#include "engine/mesh/stated_curve.h"
-#include "engine/mesh/stated_surface.h"
 #include "engine/part/cad_options.h"
 #include "engine/part/cad_tree.h"
 

@@ -1,7 +1,7 @@
 #include "engine/exchange/deck/abaqus_instances.h"
 
 #include "engine/core/text.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 #include <algorithm>
 #include <fmt/core.h>

@@ -8,7 +8,7 @@
 #include "engine/core/text.h"
 #include "engine/exchange/deck/part_shells.h"
 #include "engine/exchange/sheet_field_list.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 namespace spia {
 namespace {

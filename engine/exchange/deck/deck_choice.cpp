@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/read_number.h"
 #include "engine/core/text.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 #include "engine/options/part_options.h"
 
 namespace spia {

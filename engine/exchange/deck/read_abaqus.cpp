@@ -14,7 +14,7 @@
 #include "engine/exchange/deck/deck_builder.h"
 #include "engine/exchange/deck/deck_fields.h"
 #include "engine/exchange/deck/read_deck.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 // Layouts: Abaqus Keywords Reference Guide and the CalculiX manual (*NODE, *ELEMENT, *ELSET, *SHELL
 // SECTION, *INCLUDE).

@@ -12,7 +12,7 @@
 #include "engine/exchange/deck/dyna_transforms.h"
 #include "engine/exchange/deck/dyna_values.h"
 #include "engine/exchange/deck/read_deck.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 // Card layouts: LS-DYNA Keyword User's Manual, volume I (*NODE, *ELEMENT_SHELL, *PART,
 // *SECTION_SHELL, *INCLUDE, *PARAMETER; "Getting started" for I10=Y, LONG=Y and the marks %, +, -).

@@ -7,7 +7,7 @@
 #include "engine/exchange/deck/nastran_entries.h"
 #include "engine/exchange/deck/nastran_systems.h"
 #include "engine/exchange/deck/read_deck.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 // Entry layouts: Quick Reference Guide of MSC and NX Nastran (GRID, GRDSET, CORD1R, CORD2R, CTRIA3,
 // CQUAD4, PSHELL).

@@ -7,7 +7,7 @@
 #include "engine/core/text.h"
 #include "engine/exchange/mesh/checked_file.h"
 #include "engine/exchange/text/text_lines.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 namespace spia {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 #include "engine/options/sheet_options.h"
 
 namespace spia {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/mesh/fill_holes.h"
-#include "engine/mesh/outline.h"
+#include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/report/figures/face_values.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/mesh/distortion.h"
+#include "engine/mesh/flat/distortion.h"
 #include "engine/pipeline/session.h"
 
 /// The figures of a result as a whole, each computed here and nowhere else: JSON, terminal, reports

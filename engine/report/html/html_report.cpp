@@ -6,7 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/provenance.h"
 #include "engine/exchange/text/text_encoding.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/report/figures/crack_verdict.h"
 #include "engine/report/html/html_text.h"
 #include "engine/report/html/report_attempts.h"

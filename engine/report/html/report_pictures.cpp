@@ -1,7 +1,7 @@
 #include "engine/report/html/report_pictures.h"
 
 #include "engine/picture/picture.h"
-#include "engine/pipeline/session_scene.h"
+#include "engine/pipeline/outputs/session_scene.h"
 
 namespace spia {
 

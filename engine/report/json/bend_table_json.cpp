@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "engine/pipeline/bend_report.h"
+#include "engine/pipeline/blank/bend_report.h"
 
 namespace spia {
 namespace {

@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "engine/forming/material/material_text.h"
-#include "engine/mesh/distortion.h"
+#include "engine/mesh/flat/distortion.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/command_line_json.h"
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/applied_process.h"
-#include "engine/pipeline/iga_outputs.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/outputs/iga_outputs.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/attempts_json.h"
 #include "engine/report/json/bend_table_json.h"

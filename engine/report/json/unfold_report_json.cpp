@@ -5,8 +5,8 @@
 #include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/command_line_json.h"
-#include "engine/pipeline/target_json.h"
-#include "engine/pipeline/unfold_shortcomings.h"
+#include "engine/pipeline/files/target_json.h"
+#include "engine/pipeline/shortcomings/unfold_shortcomings.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/bend_table_json.h"
 

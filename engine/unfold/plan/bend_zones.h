@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/mesh/stated_surface.h"
+#include "engine/mesh/solid/stated_surface.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/unfold/plan/bends.h"
 

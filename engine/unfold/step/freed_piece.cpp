@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
 

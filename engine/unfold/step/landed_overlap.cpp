@@ -10,9 +10,9 @@
 
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/flat/overlap.h"
 #include "engine/mesh/locate.h"
 #include "engine/mesh/orient2d.h"
-#include "engine/mesh/overlap.h"
 #include "engine/unfold/target/turn_target.h"
 
 namespace spia {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/unfold/target/turn_target.h"
 

@@ -11,7 +11,7 @@
 #include "engine/forming/solver/energy_stage.h"
 #include "engine/forming/solver/placing.h"
 #include "engine/forming/solver/rigid_steps.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 

@@ -10,7 +10,7 @@
 #include "engine/core/text.h"
 #include "engine/forming/flatten_from.h"
 #include "engine/forming/solver/flips.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 #include "engine/mesh/segment_distance.h"
 #include "engine/mesh/topology.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/forming/flatten.h"
-#include "engine/mesh/distortion.h"
+#include "engine/mesh/flat/distortion.h"
 #include "engine/unfold/step/unfold_script.h"
 
 namespace spia {

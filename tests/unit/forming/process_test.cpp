@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/solver/equilibrium.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/developable.h"
 #include "tests/support/grid_surface.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/layout/plane_lines.h"
-#include "engine/mesh/inside_polygon.h"
+#include "engine/mesh/flat/inside_polygon.h"
 
 namespace spia {
 namespace {

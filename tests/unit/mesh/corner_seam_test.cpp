@@ -1,11 +1,11 @@
-#include "engine/mesh/corner_seam.h"
+#include "engine/mesh/cut/corner_seam.h"
 
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
 
 #include "engine/mesh/curvature.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/developable.h"
 #include "tests/support/revolved.h"

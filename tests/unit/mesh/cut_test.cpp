@@ -1,5 +1,5 @@
 // Parts that no sheet can become as they are: where they are cut open, and what is left.
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/mesh/cut/ring_strain.h"
 #include "engine/mesh/edge_graph.h"
-#include "engine/mesh/ring_strain.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/inner_panel.h"

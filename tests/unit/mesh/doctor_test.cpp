@@ -1,4 +1,4 @@
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 #include <Eigen/Geometry>
 #include <array>

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "engine/mesh/distortion.h"
+#include "engine/mesh/flat/distortion.h"
+#include "engine/mesh/flat/outline.h"
+#include "engine/mesh/flat/overlap.h"
 #include "engine/mesh/orient2d.h"
-#include "engine/mesh/outline.h"
-#include "engine/mesh/overlap.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/developable.h"
 #include "tests/support/shapes.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 
 namespace spia {
 namespace {

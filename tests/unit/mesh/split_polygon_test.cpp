@@ -1,4 +1,4 @@
-#include "engine/mesh/split_polygon.h"
+#include "engine/mesh/doctor/split_polygon.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

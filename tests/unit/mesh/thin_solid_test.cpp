@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "engine/mesh/skin.h"
-#include "engine/mesh/thin_solid.h"
+#include "engine/mesh/solid/skin.h"
+#include "engine/mesh/solid/thin_solid.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/mesh/doctor.h"
+#include "engine/mesh/doctor/doctor.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"

@@ -8,7 +8,7 @@
 #include "engine/forming/solver/membrane.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/applied_process.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/report/json/report_json.h"

@@ -1,9 +1,9 @@
-#include "engine/pipeline/certificate_report.h"
+#include "engine/pipeline/shortcomings/certificate_report.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/iga_outputs.h"
+#include "engine/pipeline/outputs/iga_outputs.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/report/json/certificate_json.h"
 #include "engine/report/json/report_json.h"

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/mesh/outline.h"
+#include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/bends_for_shop.h"
-#include "engine/pipeline/drawn_blank.h"
+#include "engine/pipeline/blank/bends_for_shop.h"
+#include "engine/pipeline/blank/drawn_blank.h"
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"

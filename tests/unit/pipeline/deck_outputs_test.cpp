@@ -1,4 +1,4 @@
-#include "engine/pipeline/deck_outputs.h"
+#include "engine/pipeline/outputs/deck_outputs.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -16,7 +16,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/forming/solver/sheet_fields.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 #include "tests/unit/exchange/sample_chain.h"

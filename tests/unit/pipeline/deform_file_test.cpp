@@ -1,4 +1,4 @@
-#include "engine/pipeline/deform_file.h"
+#include "engine/pipeline/files/deform_file.h"
 
 #include <gtest/gtest.h>
 

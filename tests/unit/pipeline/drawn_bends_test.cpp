@@ -6,8 +6,8 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/bends_for_shop.h"
-#include "engine/pipeline/drawn_blank.h"
+#include "engine/pipeline/blank/bends_for_shop.h"
+#include "engine/pipeline/blank/drawn_blank.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/drawn_solid.h"

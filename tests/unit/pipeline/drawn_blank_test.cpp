@@ -1,4 +1,4 @@
-#include "engine/pipeline/drawn_blank.h"
+#include "engine/pipeline/blank/drawn_blank.h"
 
 #include <gtest/gtest.h>
 #include <numbers>

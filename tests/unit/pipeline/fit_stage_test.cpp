@@ -11,7 +11,7 @@
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/report/json/report_json.h"
 
 namespace spia {

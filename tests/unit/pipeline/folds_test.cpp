@@ -8,7 +8,7 @@
 #include <random>
 
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/prism.h"

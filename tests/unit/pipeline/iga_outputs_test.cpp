@@ -1,4 +1,4 @@
-#include "engine/pipeline/iga_outputs.h"
+#include "engine/pipeline/outputs/iga_outputs.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/nurbs/project.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "tests/support/iga_readers.h"

@@ -1,4 +1,4 @@
-#include "engine/pipeline/process_file.h"
+#include "engine/pipeline/files/process_file.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 #include "engine/forming/process/drawbead.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/run_stage.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/report/json/report_json.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"

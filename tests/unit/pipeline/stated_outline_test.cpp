@@ -12,7 +12,7 @@
 #include "engine/exchange/lines/read_dxf.h"
 #include "engine/exchange/lines/write_dxf.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/drawn_blank.h"
+#include "engine/pipeline/blank/drawn_blank.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "engine/exchange/read_part.h"
-#include "engine/mesh/round_edge.h"
+#include "engine/mesh/solid/round_edge.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/drawn_blank.h"
+#include "engine/pipeline/blank/drawn_blank.h"
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"

@@ -1,4 +1,4 @@
-#include "engine/pipeline/surface_shortcomings.h"
+#include "engine/pipeline/shortcomings/surface_shortcomings.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -7,7 +7,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/options/surface_options.h"
 #include "engine/pipeline/run_chain.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/pipeline/usual_tolerance.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_file.h"

@@ -5,9 +5,9 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_chain.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/report/json/report_json.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

@@ -1,4 +1,4 @@
-#include "engine/pipeline/unfold_file.h"
+#include "engine/pipeline/files/unfold_file.h"
 
 #include <algorithm>
 #include <filesystem>

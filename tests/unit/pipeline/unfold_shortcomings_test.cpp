@@ -1,11 +1,11 @@
-#include "engine/pipeline/unfold_shortcomings.h"
+#include "engine/pipeline/shortcomings/unfold_shortcomings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/core/json_file.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/unfold_file.h"
+#include "engine/pipeline/files/unfold_file.h"
 #include "engine/report/json/unfold_report_json.h"
 #include "tests/support/bent_parts.h"
 

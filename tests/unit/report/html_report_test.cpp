@@ -5,7 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/pipeline/applied_process.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 #include "engine/report/figures/crack_verdict.h"
 #include "engine/report/figures/statistics.h"
 #include "engine/report/html/html_text.h"

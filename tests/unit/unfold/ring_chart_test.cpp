@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/mesh/cut.h"
+#include "engine/mesh/cut/cut.h"
 #include "engine/unfold/step/unfold_script.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/viewer/panels/dialog_queue.h"
+#include "app/viewer/panels/dialogs/dialog_queue.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/viewer/panels/edited_region.h"
+#include "app/viewer/panels/steps/edited_region.h"
 
 #include <gtest/gtest.h>
 

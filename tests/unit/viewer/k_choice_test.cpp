@@ -11,7 +11,7 @@
 #include "app/viewer/model/document/unfolding_steps.h"
 #include "engine/core/file_content.h"
 #include "engine/core/json_file.h"
-#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/developable.h"

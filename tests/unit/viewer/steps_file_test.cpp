@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/mesh/region.h"
-#include "engine/pipeline/unfold_file.h"
+#include "engine/pipeline/files/unfold_file.h"
 #include "tests/unit/viewer/steps_fixture.h"
 
 namespace spia::viewer {

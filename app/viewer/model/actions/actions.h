@@ -13,7 +13,7 @@
 #include "app/viewer/model/document/step_target.h"
 #include "app/viewer/model/reports/report_options.h"
 #include "engine/forming/material/material_fit.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 
 /// What a user can do. Buttons, shortcuts, scripts and tests put actions into a queue; apply()
 /// carries them out between two frames. In a script an action is an object {"do": NAME, ...} with

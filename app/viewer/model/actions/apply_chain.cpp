@@ -5,7 +5,7 @@
 
 #include "app/viewer/model/document/chain.h"
 #include "engine/part/vertex_numbers.h"
-#include "engine/pipeline/part_bends.h"
+#include "engine/pipeline/blank/part_bends.h"
 
 namespace spia::viewer {
 

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/recent_files.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 
 namespace spia::viewer {
 

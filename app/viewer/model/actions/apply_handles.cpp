@@ -5,7 +5,7 @@
 #include "app/viewer/model/picking/handles.h"
 #include "app/viewer/model/picking/measuring.h"
 #include "app/viewer/model/picking/picking.h"
-#include "engine/pipeline/deform_file.h"
+#include "engine/pipeline/files/deform_file.h"
 
 namespace spia::viewer {
 

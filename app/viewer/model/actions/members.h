@@ -11,7 +11,7 @@
 #include "engine/options/part_options.h"
 #include "engine/options/sheet_options.h"
 #include "engine/options/surface_options.h"
-#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/outputs/outputs.h"
 
 /// The members of the structs that scripts, projects and reports share.
 namespace spia::viewer {

@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/provenance.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/part_bends.h"
+#include "engine/pipeline/blank/part_bends.h"
 
 namespace fs = std::filesystem;
 

@@ -5,7 +5,7 @@
 #include "app/viewer/model/document/unfolding_steps.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/pipeline/unfold_file.h"
+#include "engine/pipeline/files/unfold_file.h"
 
 namespace spia::viewer {
 

@@ -13,8 +13,8 @@
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/applied_process.h"
-#include "engine/pipeline/bend_report.h"
-#include "engine/pipeline/part_bends.h"
+#include "engine/pipeline/blank/bend_report.h"
+#include "engine/pipeline/blank/part_bends.h"
 #include "engine/report/figures/figures.h"
 #include "engine/unfold/automatic_unfolding.h"
 

@@ -7,8 +7,8 @@
 #include "app/viewer/model/picking/handles.h"
 #include "app/viewer/model/picking/measuring.h"
 #include "engine/core/error.h"
-#include "engine/pipeline/shortcomings.h"
-#include "engine/pipeline/surface_shortcomings.h"
+#include "engine/pipeline/shortcomings/shortcomings.h"
+#include "engine/pipeline/shortcomings/surface_shortcomings.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,0 +1,350 @@
+#include "engine/mesh/solid/round_border.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+using Kind = StatedSurface::Kind;
+
+/// A plane or cylinder at a distance from a stated one.
+struct Level {
+    StatedSurface of;
+    double at = 0; ///< mm along the plane's normal, or the radius
+
+    /// mm beyond it
+    double value(const Eigen::Vector3d& p) const
+    {
+        return (of.kind == Kind::plane ? (p - of.point).dot(of.direction) : off_axis(p).norm()) - at;
+    }
+    Eigen::Vector3d normal(const Eigen::Vector3d& p) const
+    {
+        return of.kind == Kind::plane ? of.direction : off_axis(p).normalized();
+    }
+
+private:
+    Eigen::Vector3d off_axis(const Eigen::Vector3d& p) const
+    {
+        const Eigen::Vector3d from = p - of.point;
+        return from - from.dot(of.direction) * of.direction;
+    }
+};
+
+/// The place of both that is next to a given one, by the shortest steps; none where they meet at
+/// less than 12 degrees, or farther away.
+std::optional<Eigen::Vector3d> onto_both(const Level& a, const Level& b, const Eigen::Vector3d& from, double within)
+{
+    constexpr int most_steps = 20;
+    constexpr double grazing = 0.2, rounding = 1e-12;
+    Eigen::Vector3d p = from;
+    for (int step = 0; step < most_steps; ++step) {
+        Eigen::Matrix<double, 2, 3> n;
+        n << a.normal(p).transpose(), b.normal(p).transpose();
+        if (n.row(0).cross(n.row(1)).norm() < grazing)
+            return std::nullopt;
+        const Eigen::Vector2d off(a.value(p), b.value(p));
+        const Eigen::Vector3d way = n.transpose() * (n * n.transpose()).inverse() * off;
+        p -= way;
+        if (!((p - from).norm() <= within))
+            return std::nullopt;
+        if (way.norm() <= rounding * (1 + p.norm()))
+            return p;
+    }
+    return std::nullopt;
+}
+
+using Added = std::array<std::vector<int>, 3>; ///< per edge of a triangle: vertices between its
+                                               ///< ends, in this order
+
+/// Fans over a triangle with vertices along its edges.
+void divide(int a, int b, int c, Added between, std::vector<Eigen::Vector3i>& into)
+{
+    for (int turn = 0; turn < 2 && between[0].empty(); ++turn) {
+        std::swap(a, b); // a, b, c -> b, c, a
+        std::swap(b, c);
+        std::rotate(between.begin(), between.begin() + 1, between.end());
+    }
+    if (between[0].empty()) {
+        into.emplace_back(a, b, c);
+        return;
+    }
+    int from = a;
+    for (const int v : between[0]) {
+        divide(from, v, c, {{{}, {}, from == a ? between[2] : std::vector<int>{}}}, into);
+        from = v;
+    }
+    divide(from, b, c, {{{}, between[1], {}}}, into);
+}
+
+class Border {
+public:
+    Border(SkinMesh& middle, TriMesh& outer, const TriMesh& solid, const ThinSolid& sheet,
+           const std::vector<StatedSurface>& surface, const std::vector<int>& done)
+        : middle_(middle), outer_(outer), half_(sheet.thickness / 2), surface_(surface)
+    {
+        find_border(solid, sheet, done);
+        facing_ = area_vectors(outer);
+    }
+
+    /// Vertices where one cylinder cuts one plane or cylinder.
+    void place_vertices()
+    {
+        struct At {
+            int rim = -1, face = -1;
+            bool alone = true;
+            std::vector<int> around;
+        };
+        std::vector<At> at(size_t(outer_.vertices()));
+        for (int f = 0; f < outer_.triangles(); ++f)
+            for (int k = 0; k < 3; ++k) {
+                At& here = at[size_t(outer_.triangle(k, f))];
+                here.alone = here.alone && (here.face < 0 || same(here.face, f));
+                here.face = f;
+                here.around.push_back(f);
+                if (const int rim = rim_at(f, k); rim >= 0)
+                    for (const int end : {outer_.triangle(k, f), outer_.triangle((k + 1) % 3, f)}) {
+                        At& there = at[size_t(end)];
+                        there.alone =
+                            there.alone && surface_[size_t(rim)].kind == Kind::cylinder &&
+                            (there.rim < 0 || same_cylinder(surface_[size_t(there.rim)], surface_[size_t(rim)]));
+                        there.rim = rim;
+                    }
+            }
+        for (int v = 0; v < outer_.vertices(); ++v)
+            if (const At& here = at[size_t(v)]; here.alone && here.rim >= 0)
+                if (const auto level = levels(here.face, v)) {
+                    auto place = middle_.mesh.position.col(v);
+                    const auto exact = onto_both(rim_level(here.rim), level->second, place, half_);
+                    if (!exact)
+                        continue;
+                    const Eigen::Vector3d was = place;
+                    place = *exact;
+                    if (!std::ranges::all_of(here.around, [&](int f) { return upright(f, corners(middle_.mesh, f)); }))
+                        place = was;
+                }
+    }
+
+    int divide_chords()
+    {
+        int divided = 0;
+        std::vector<Eigen::Vector3i> triangle;
+        std::vector<int> source_face;
+        for (int f = 0; f < facing_.cols(); ++f) {
+            const size_t before = new_outer_.size(), first = triangle.size();
+            Added between;
+            int here = 0;
+            for (int k = 0; k < 3; ++k) {
+                between[size_t(k)] = between_ends(f, k);
+                here += !between[size_t(k)].empty();
+            }
+            const auto corner = outer_.triangle.col(f);
+            divide(corner[0], corner[1], corner[2], between, triangle);
+            if (here > 0 && !std::all_of(triangle.begin() + long(first), triangle.end(),
+                                         [&](const Eigen::Vector3i& t) { return both_upright(f, t); })) {
+                triangle.resize(first); // the chord stays
+                triangle.emplace_back(corner);
+                new_outer_.resize(before);
+                new_middle_.resize(before);
+                new_source_.resize(before);
+                here = 0;
+            }
+            divided += here;
+            source_face.resize(triangle.size(), middle_.source_face[size_t(f)]);
+        }
+        if (divided > 0)
+            take(triangle, std::move(source_face));
+        return divided;
+    }
+
+private:
+    SkinMesh& middle_;
+    TriMesh& outer_;
+    double half_;
+    const std::vector<StatedSurface>& surface_;
+    std::map<std::pair<int, int>, int> rim_; ///< per edge of the outer skin, vertices of the solid:
+                                             ///< the triangle across
+    Eigen::Matrix3Xd facing_;
+    std::vector<Eigen::Vector3d> new_outer_, new_middle_;
+    std::vector<int> new_source_;
+
+    void find_border(const TriMesh& solid, const ThinSolid& sheet, const std::vector<int>& done)
+    {
+        const std::vector<EdgeUse> uses = edge_uses(solid.triangle);
+        for_each_edge(uses, [&](size_t begin, size_t end) {
+            if (end != begin + 2)
+                return;
+            int one = uses[begin].face, other = uses[begin + 1].face;
+            if (sheet.side[size_t(one)] != SheetSide::outer)
+                std::swap(one, other);
+            if (sheet.side[size_t(one)] == SheetSide::outer && sheet.side[size_t(other)] == SheetSide::rim &&
+                !std::ranges::binary_search(done, other))
+                rim_[{uses[begin].low, uses[begin].high}] = other;
+        });
+    }
+    const StatedSurface& under(int f) const { return surface_[size_t(middle_.source_face[size_t(f)])]; }
+    bool same(int f, int g) const
+    {
+        const StatedSurface &a = under(f), &b = under(g);
+        if (a.kind == Kind::plane && b.kind == Kind::plane)
+            return a.direction == b.direction && a.point == b.point;
+        return same_cylinder(a, b);
+    }
+    /// The triangle of the solid across the edge; -1: it is none of the border.
+    int rim_at(int f, int k) const
+    {
+        const int a = middle_.source_vertex[size_t(outer_.triangle(k, f))],
+                  b = middle_.source_vertex[size_t(outer_.triangle((k + 1) % 3, f))];
+        const auto found = rim_.find({std::min(a, b), std::max(a, b)});
+        return found == rim_.end() ? -1 : found->second;
+    }
+    Level rim_level(int rim) const { return {surface_[size_t(rim)], surface_[size_t(rim)].radius}; }
+
+    /// Of the outer skin and of the middle surface at a vertex; none where it is not on what CAD
+    /// states.
+    std::optional<std::pair<Level, Level>> levels(int f, int v) const
+    {
+        const StatedSurface& s = under(f);
+        if (s.kind == Kind::other)
+            return std::nullopt;
+        Level outer{s, s.kind == Kind::plane ? 0 : s.radius};
+        constexpr double on_it = 1e-3; // of the thickness: gaps between CAD faces
+        if (std::abs(outer.value(outer_.position.col(v))) > 2 * on_it * half_)
+            return std::nullopt;
+        const double side = outer.value(middle_.mesh.position.col(v)) > 0 ? 1 : -1;
+        Level middle{s, outer.at + side * half_};
+        if (s.kind == Kind::cylinder && !(middle.at > 0))
+            return std::nullopt;
+        return std::pair(outer, middle);
+    }
+
+    static Eigen::Matrix3d corners(const TriMesh& mesh, int f)
+    {
+        return mesh.position(Eigen::all, mesh.triangle.col(f));
+    }
+
+    /// Whether corners that take the place of the triangle's look the way it did.
+    bool upright(int f, const Eigen::Matrix3d& corner) const
+    {
+        if (under(f).kind == Kind::cylinder)
+            return unrolled_area(under(f), corner) * unrolled_area(under(f), corners(outer_, f)) > 0;
+        return (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).dot(facing_.col(f)) > 0;
+    }
+    bool both_upright(int f, const Eigen::Vector3i& t) const
+    {
+        Eigen::Matrix3d outer, middle;
+        for (int k = 0; k < 3; ++k) {
+            const int v = t[k], added = v - outer_.vertices();
+            outer.col(k) = added < 0 ? Eigen::Vector3d(outer_.position.col(v)) : new_outer_[size_t(added)];
+            middle.col(k) = added < 0 ? Eigen::Vector3d(middle_.mesh.position.col(v)) : new_middle_[size_t(added)];
+        }
+        return upright(f, outer) && upright(f, middle);
+    }
+
+    /// How far the border turns along the chord, radians: around the cylinder that cuts it, and
+    /// itself.
+    double turn(const Level& rim, const Level& middle, const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
+    {
+        const auto angle = [](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+            return std::atan2(u.cross(v).norm(), u.dot(v));
+        };
+        const Eigen::Vector3d along_a = rim.normal(a).cross(middle.normal(a)),
+                              along_b = rim.normal(b).cross(middle.normal(b));
+        return std::max(angle(rim.normal(a), rim.normal(b)), angle(along_a, along_b));
+    }
+
+    /// Vertices to come, along the edge of the triangle.
+    std::vector<int> between_ends(int f, int k)
+    {
+        const int rim = rim_at(f, k);
+        if (rim < 0 || surface_[size_t(rim)].kind != Kind::cylinder)
+            return {};
+        const int a = outer_.triangle(k, f), b = outer_.triangle((k + 1) % 3, f);
+        const auto at_a = levels(f, a), at_b = levels(f, b);
+        if (!at_a || !at_b || at_a->second.at != at_b->second.at)
+            return {};
+        const Level cut = rim_level(rim);
+        const auto &outer = outer_.position, &middle = middle_.mesh.position;
+        constexpr double finest = 3 * std::numbers::pi / 180, most = std::numbers::pi / 2;
+        const double angle = turn(cut, at_a->second, middle.col(a), middle.col(b));
+        const int pieces = int(std::ceil(angle / finest - 1e-6));
+        if (pieces < 2 || angle > most)
+            return {};
+        std::vector<int> result;
+        std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> places;
+        for (int i = 1; i < pieces; ++i) {
+            const double share = double(i) / pieces;
+            const auto within = [&](const auto& p) { return (p.col(a) - p.col(b)).norm() / 2; };
+            const auto exact_outer =
+                onto_both(cut, at_a->first, (1 - share) * outer.col(a) + share * outer.col(b), within(outer));
+            const auto exact_middle =
+                onto_both(cut, at_a->second, (1 - share) * middle.col(a) + share * middle.col(b), within(middle));
+            if (!exact_outer || !exact_middle)
+                return {};
+            places.emplace_back(*exact_outer, *exact_middle);
+        }
+        for (const auto& [on_outer, on_middle] : places) {
+            result.push_back(outer_.vertices() + int(new_outer_.size()));
+            new_outer_.push_back(on_outer);
+            new_middle_.push_back(on_middle);
+            new_source_.push_back(middle_.source_vertex[size_t(a)]);
+        }
+        return result;
+    }
+
+    /// Sorts the vertices by their numbers of the solid: new ones come after those that they are
+    /// called by.
+    void take(const std::vector<Eigen::Vector3i>& triangle, std::vector<int> source_face)
+    {
+        std::vector<int> source = middle_.source_vertex;
+        source.insert(source.end(), new_source_.begin(), new_source_.end());
+        std::vector<int> order(source.size()), place(source.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](int u, int v) { return source[size_t(u)] < source[size_t(v)]; });
+        const int before = outer_.vertices();
+        const Eigen::Matrix3Xd outer = std::move(outer_.position), middle = std::move(middle_.mesh.position);
+        outer_.position.resize(3, Eigen::Index(order.size()));
+        middle_.mesh.position.resize(3, Eigen::Index(order.size()));
+        middle_.source_vertex.clear();
+        for (size_t i = 0; i < order.size(); ++i) {
+            const int v = order[i], added = v - before;
+            place[size_t(v)] = int(i);
+            outer_.position.col(Eigen::Index(i)) =
+                added < 0 ? Eigen::Vector3d(outer.col(v)) : new_outer_[size_t(added)];
+            middle_.mesh.position.col(Eigen::Index(i)) =
+                added < 0 ? Eigen::Vector3d(middle.col(v)) : new_middle_[size_t(added)];
+            middle_.source_vertex.push_back(source[size_t(v)]);
+        }
+        outer_.triangle.resize(3, Eigen::Index(triangle.size()));
+        for (size_t f = 0; f < triangle.size(); ++f)
+            for (int k = 0; k < 3; ++k)
+                outer_.triangle(k, Eigen::Index(f)) = place[size_t(triangle[f][k])];
+        middle_.mesh.triangle = outer_.triangle;
+        middle_.source_face = std::move(source_face);
+    }
+};
+
+} // namespace
+
+int round_border(SkinMesh& middle, const TriMesh& solid, const ThinSolid& sheet,
+                 const std::vector<StatedSurface>& surface, const std::vector<int>& done)
+{
+    TriMesh outer{solid.position(Eigen::all, middle.source_vertex), middle.mesh.triangle};
+    Border border(middle, outer, solid, sheet, surface, done);
+    border.place_vertices();
+    return border.divide_chords();
+}
+
+} // namespace spia

@@ -1,0 +1,293 @@
+#include "engine/mesh/solid/sunk_holes.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/solid/cut_off_holes.h"
+#include "engine/mesh/solid/round_edge.h"
+#include "engine/mesh/solid/round_holes.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+/// Where faces across the thickness that hang together meet one skin.
+struct Edge {
+    std::vector<int> vertex; ///< of the solid, ascending
+    std::vector<int> skin;   ///< triangles of the skin
+    std::vector<int> wall;   ///< triangles across the thickness
+};
+
+/// All faces across the thickness that hang together.
+struct Wall {
+    std::vector<int> face;   ///< ascending
+    std::vector<int> vertex; ///< of the solid, ascending
+    Edge outer, inner;
+};
+
+void make_set(std::vector<int>& values)
+{
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// In the order of their first triangles.
+std::vector<Wall> walls_of(const TriMesh& solid, const ThinSolid& sheet)
+{
+    const auto rim = [&](int f) { return sheet.side[size_t(f)] == SheetSide::rim; };
+    const std::vector<EdgeUse> uses = edge_uses(solid.triangle);
+    DisjointSets together(size_t(solid.triangles()));
+    const auto each_edge = [&](const auto& visit) {
+        for_each_edge(uses, [&](size_t begin, size_t end) {
+            if (end == begin + 2)
+                visit(uses[begin], uses[begin + 1]);
+        });
+    };
+    each_edge([&](const EdgeUse& a, const EdgeUse& b) {
+        if (rim(a.face) && rim(b.face))
+            together.join(a.face, b.face);
+    });
+    std::map<int, size_t> number;
+    std::vector<Wall> walls;
+    for (int f = 0; f < solid.triangles(); ++f) {
+        if (!rim(f))
+            continue;
+        const auto [at, added] = number.try_emplace(together.root(f), walls.size());
+        if (added)
+            walls.emplace_back();
+        walls[at->second].face.push_back(f);
+        for (const int v : solid.triangle.col(f))
+            walls[at->second].vertex.push_back(v);
+    }
+    each_edge([&](const EdgeUse& a, const EdgeUse& b) {
+        if (rim(a.face) == rim(b.face))
+            return;
+        const int wall = rim(a.face) ? a.face : b.face, skin = rim(a.face) ? b.face : a.face;
+        Wall& found = walls[number.at(together.root(wall))];
+        Edge& edge = sheet.side[size_t(skin)] == SheetSide::outer ? found.outer : found.inner;
+        edge.vertex.insert(edge.vertex.end(), {a.low, a.high});
+        edge.skin.push_back(skin);
+        edge.wall.push_back(wall);
+    });
+    for (Wall& wall : walls)
+        for (std::vector<int>* values : {&wall.vertex, &wall.outer.vertex, &wall.inner.vertex})
+            make_set(*values);
+    return walls;
+}
+
+/// The circle that an edge is on plane skin which lies around it, its axis outwards; none: it is
+/// another thing.
+std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Edge& edge,
+                                        double thickness)
+{
+    constexpr double plane = 1 - 1e-6, same = 1e-3; // 0.1 degrees; of the thickness
+    Eigen::Vector3d outwards = Eigen::Vector3d::Zero();
+    double size = 0;
+    for (const int f : edge.skin) {
+        outwards += normal.col(f);
+        size += normal.col(f).norm();
+    }
+    if (edge.skin.empty() || outwards.norm() < plane * size)
+        return std::nullopt;
+    const auto circle = round_edge(solid.position(Eigen::all, edge.vertex), outwards, same * thickness);
+    double beyond = 0; // of the sheet's own outline the skin is within
+    for (const int f : edge.skin)
+        if (circle)
+            beyond += circle->off_axis(solid.position(Eigen::all, solid.triangle.col(f)).rowwise().mean()).norm() -
+                      circle->radius;
+    return beyond > 0 ? circle : std::nullopt;
+}
+
+std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Wall& wall, SheetSide side,
+                             double thickness)
+{
+    constexpr double same = 1e-3,
+                     wider = 0.02; // of the thickness; a hole that was punched is wider at one side
+                                   // by less
+    const Edge& edge = side == SheetSide::outer ? wall.outer : wall.inner;
+    const std::optional<RoundEdge> circle = circle_through(solid, normal, edge, thickness);
+    if (!circle)
+        return std::nullopt;
+    double least = std::numeric_limits<double>::infinity();
+    for (const int v : wall.vertex)
+        least = std::min(least, circle->off_axis(solid.position.col(v)).norm());
+    if (least > circle->radius - wider * thickness)
+        return std::nullopt;
+    double depth = std::numeric_limits<double>::infinity();
+    std::vector<int> narrowest;
+    for (const int v : wall.vertex)
+        if (circle->off_axis(solid.position.col(v)).norm() <= least + same * thickness) {
+            depth = std::min(depth, -circle->height(solid.position.col(v)));
+            narrowest.push_back(v);
+        }
+    if (!circle->surrounded(solid.position(Eigen::all, narrowest)))
+        least = 0;
+    double along = 0, size = 0;
+    for (const int f : edge.wall) {
+        along += std::abs(normal.col(f).dot(circle->axis));
+        size += normal.col(f).norm();
+    }
+    constexpr double square = 0.1; // 6 degrees
+    return SunkHole{0,         side,  circle->centre,         -circle->axis,     2 * circle->radius,
+                    2 * least, depth, along <= square * size, edge.wall.front(), wall.outer.vertex};
+}
+
+/// The circle as a closed row of points.
+Eigen::Matrix3Xd circle_of(const SunkHole& hole, Skin surface, double thickness)
+{
+    constexpr int points = 120; // chords of 3 degrees, as round_border() has them
+    const bool same = (surface == Skin::outer) == (hole.skin == SheetSide::outer);
+    const double depth = surface == Skin::middle ? thickness / 2 : same ? 0 : thickness;
+    const Eigen::Vector3d x = hole.inwards.unitOrthogonal(), y = hole.inwards.cross(x);
+    Eigen::Matrix3Xd row(3, points + 1);
+    for (int i = 0; i <= points; ++i) {
+        const double angle = 2 * std::numbers::pi * (i % points) / points;
+        row.col(i) =
+            hole.centre + depth * hole.inwards + hole.diameter / 2 * (std::cos(angle) * x + std::sin(angle) * y);
+    }
+    return row;
+}
+
+} // namespace
+
+std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
+{
+    const Eigen::Matrix3Xd normal = sheet.flipped * area_vectors(solid);
+    const std::vector<RoundHole> round = round_holes(solid, normal, sheet.thickness);
+    std::vector<char> cut_off(size_t(solid.triangles()), 0);
+    for (const RoundHole& hole : round)
+        for (const int f : hole.wall)
+            cut_off[size_t(f)] = !hole.whole;
+    std::vector<SunkHole> holes;
+    int number = 0;
+    const auto add = [&](SunkHole& hole) {
+        hole.hole = number;
+        holes.push_back(std::move(hole));
+    };
+    std::vector<std::vector<int>> others;
+    for (Wall& wall : walls_of(solid, sheet)) {
+        if (std::ranges::any_of(wall.face, [&](int f) { return cut_off[size_t(f)] != 0; }))
+            continue;
+        if (wall.outer.vertex.empty() || wall.inner.vertex.empty())
+            continue; // not through the sheet
+        const size_t before = holes.size();
+        for (const SheetSide side : {SheetSide::outer, SheetSide::inner})
+            if (auto hole = sunk(solid, normal, wall, side, sheet.thickness))
+                add(*hole);
+        if (holes.size() > before)
+            ++number;
+        else
+            others.push_back(std::move(wall.face));
+    }
+    const CutOffHoles search(solid, normal, sheet);
+    for (const RoundHole& hole : round)
+        if (!hole.whole) {
+            for (SunkHole& each : search.of(hole))
+                add(each);
+            ++number;
+        }
+    for (const std::vector<int>& wall : others) {
+        for (SunkHole& each : search.over_bend(wall))
+            add(each);
+        ++number;
+    }
+    return holes;
+}
+
+int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin)
+{
+    return int(std::ranges::count_if(
+        holes, [&](const SunkHole& hole) { return hole.cut_off && hole.diameter > 0 && hole.skin == skin; }));
+}
+
+int sunk_in_bends(const std::vector<SunkHole>& holes)
+{
+    return int(std::ranges::count_if(holes, [](const SunkHole& hole) { return hole.diameter == 0; }));
+}
+
+std::set<int> sunk_through(const std::vector<SunkHole>& holes, double thickness)
+{
+    constexpr double all = 1 - 1e-3; // of the thickness
+    std::set<int> result;
+    for (const SunkHole& hole : holes)
+        if (hole.cut_off && hole.depth > all * thickness)
+            result.insert(hole.hole);
+    return result;
+}
+
+std::set<int> wider_in_middle(const std::vector<SunkHole>& holes, SheetSide from, double thickness)
+{
+    std::set<int> result = sunk_through(holes, thickness);
+    for (const SunkHole& hole : holes)
+        if (hole.diameter == 0 || (hole.cut_off && hole.skin == from))
+            result.insert(hole.hole);
+    return result;
+}
+
+ThinSolid sides_exchanged(const ThinSolid& sheet)
+{
+    ThinSolid result = sheet;
+    for (SheetSide& side : result.side)
+        side = side == SheetSide::outer   ? SheetSide::inner
+               : side == SheetSide::inner ? SheetSide::outer
+                                          : SheetSide::rim;
+    std::swap(result.outer, result.inner);
+    return result;
+}
+
+void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<SunkHole>& holes, double thickness)
+{
+    for (const SunkHole& hole : holes)
+        for (int v = 0; v < middle.mesh.vertices(); ++v)
+            if (const int source = middle.source_vertex[size_t(v)];
+                std::binary_search(hole.outer.begin(), hole.outer.end(), source))
+                middle.mesh.position.col(v) = solid.position.col(source) +
+                                              (hole.skin == SheetSide::outer ? 1 : -1) * thickness / 2 * hole.inwards;
+}
+
+int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
+{
+    constexpr double rounding = 1e-12;
+    int moved = 0;
+    for (const SunkHole& hole : holes)
+        for (int v = 0; v < middle.mesh.vertices() && hole.least > 0; ++v) {
+            if (!std::binary_search(hole.outer.begin(), hole.outer.end(), middle.source_vertex[size_t(v)]))
+                continue;
+            auto place = middle.mesh.position.col(v);
+            const Eigen::Vector3d way = place - hole.centre, out = way - way.dot(hole.inwards) * hole.inwards;
+            const double share = hole.least / 2 / out.norm() - 1;
+            if (std::abs(share) <= rounding)
+                continue;
+            place += share * out;
+            ++moved;
+        }
+    return moved;
+}
+
+std::vector<Eigen::Matrix3Xd> rows_of(const std::vector<SunkHole>& holes, Skin surface, double thickness)
+{
+    constexpr double same = 1e-3; // of the thickness
+    std::vector<Eigen::Matrix3Xd> rows;
+    for (size_t i = 0; i < holes.size(); ++i) {
+        const SunkHole& hole = holes[i];
+        for (const MarkOutline& edge : hole.edge)
+            rows.push_back(on_surface(edge, surface, thickness));
+        const auto drawn = [&](const SunkHole& before) {
+            return before.hole == hole.hole && !before.cut_off &&
+                   std::abs(before.diameter - hole.diameter) < same * thickness;
+        };
+        if (!hole.cut_off && std::none_of(holes.begin(), holes.begin() + long(i), drawn))
+            rows.push_back(circle_of(hole, surface, thickness));
+    }
+    return rows;
+}
+
+} // namespace spia

@@ -1,0 +1,75 @@
+#include "engine/pipeline/shortcomings/surface_shortcomings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "engine/options/surface_options.h"
+#include "engine/pipeline/shortcomings/certificate_report.h"
+#include "engine/pipeline/usual_tolerance.h"
+
+namespace spia {
+namespace {
+
+/// Whether the normal only vanishes at a corner: on a smooth outline the grid has no angle there.
+bool at_a_corner(const Refusal& refusal)
+{
+    const auto end = [](double parameter) { return parameter == 0 || parameter == 1; };
+    return refusal.why == Refusal::Why::vanishes && end(refusal.place.u) && end(refusal.place.v);
+}
+
+/// A coordinate without what rounding leaves of zero, mm.
+double tidy(double x) { return std::round(x * 1e4) / 1e4 + 0.; }
+
+/// In percent, of which little is not nothing and most is not all.
+std::string percent(double share)
+{
+    constexpr double least = 1e-4; // as two decimals show it
+    if (share < least)
+        return "less than 0.01 %";
+    return share > 1 - least ? "more than 99.99 %" : fmt::format("{:.2f} %", 100 * share);
+}
+
+} // namespace
+
+std::optional<std::string> far_surface(const Session& session)
+{
+    const SurfaceStage& surface = *session.surface;
+    const Deviation& deviation = surface.deviation;
+    if (surface.fit || deviation.max() <= usual_tolerance)
+        return std::nullopt;
+    const DeviationStatistics& worse = deviation.surface_to_mesh.max >= deviation.mesh_to_surface.max
+                                           ? deviation.surface_to_mesh
+                                           : deviation.mesh_to_surface;
+    return fmt::format(
+        "the surface is up to {:.3g} mm from the part, near ({:.6g}, {:.6g}, {:.6g}), on {} of its area by more than the "
+        "usual tolerance of {:.3g} mm: ask for a tolerance of the surface ({}), for patches ({}), or for more cells ({})",
+        deviation.max(), tidy(worse.where.x()), tidy(worse.where.y()), tidy(worse.where.z()),
+        percent(1 - deviation.within()), usual_tolerance, mention(option::tolerance), mention(option::patches, "auto"),
+        mention(option::grid));
+}
+
+std::optional<std::string> folded_surface(const Session& session)
+{
+    const Certificate& certificate = surface_certificate(session);
+    const bool refused =
+        !certificate.leak.empty() ||
+        std::any_of(certificate.patch.begin(), certificate.patch.end(),
+                    [](const PatchCertificate& each) { return each.refusal && !at_a_corner(*each.refusal); });
+    std::string text;
+    if (refused)
+        text = fmt::format("the surface may have a fold: {}", unsuited(certificate).value_or(""));
+    else if (const double turned = session.surface->deviation.normal.turned; turned > 0)
+        text = fmt::format("the surface turns over against the part: on {} of its area the normals are opposite",
+                           percent(turned));
+    else
+        return std::nullopt;
+    return text +
+           (session.options.patches
+                ? fmt::format("; add a cut there ({}), or take one patch ({})", mention(option::patches, "FILE"),
+                              mention(option::patches, "one"))
+                : fmt::format("; choose corners at sharp corners of the blank ({}), more cells ({}), or patches ({})",
+                              mention(option::corners), mention(option::grid), mention(option::patches, "auto")));
+}
+
+} // namespace spia
