@@ -113,6 +113,29 @@ void append(FilledMesh& filled, const Additions& additions)
             additions.triangle[t][2];
 }
 
+/// cot of the angle between two sides is beyond what is counted. There linear functions of the plane
+/// no longer make the Laplacian zero.
+bool is_sliver(const Eigen::Vector2d& ca, const Eigen::Vector2d& cb)
+{
+    return std::abs(ca.dot(cb)) > largest_cotangent * std::abs(cross(ca, cb));
+}
+
+/// The same rows without those of the part that have a sliver. A sheet of few, long triangles has
+/// slivers from hole to hole: their rows outweigh all others, and place the fill far off the sheet.
+std::vector<char> without_slivers(std::vector<char> row, const FilledMesh& filled)
+{
+    for (int f = 0; f < filled.mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto corner = [&](int i) { return filled.mesh.triangle((k + i) % 3, f); };
+            const Eigen::Vector2d c = filled.plane.col(corner(0));
+            if (is_sliver(filled.plane.col(corner(1)) - c, filled.plane.col(corner(2)) - c))
+                for (const int v : {corner(1), corner(2)})
+                    if (v < filled.part_vertices)
+                        row[size_t(v)] = 0;
+        }
+    return row;
+}
+
 /// Places the vertices marked in `free`: least squares of the Laplacian over the plane at the
 /// vertices marked in `row`, weighted with the area around them. Linear functions of the plane make
 /// it zero, whatever the triangles.
@@ -240,7 +263,7 @@ FilledMesh fill_holes(const TriMesh& part, const Eigen::Matrix2Xd& plane, const 
     for (const int v : filled.outline)
         row[size_t(v)] = 0; // the Laplacian needs faces all around
     if (std::count(free.begin(), free.end(), char(1)) > 0)
-        place_in_space(filled, free, row);
+        place_in_space(filled, free, without_slivers(std::move(row), filled));
     return filled;
 }
 

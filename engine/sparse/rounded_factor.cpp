@@ -4,8 +4,9 @@
 #include <array>
 #include <oneapi/tbb/parallel_for.h>
 
-// The processor's widest registers, chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// The processor's widest registers, chosen when the program starts: before the thread sanitizer is
+// there, whose calls within the choice would end it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define SPIA_WIDE __attribute__((target_clones("arch=haswell", "default")))
 #else
 #define SPIA_WIDE

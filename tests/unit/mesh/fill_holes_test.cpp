@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/mesh_polygon.h"
 #include "engine/mesh/topology.h"
+#include "tests/support/seeded_random.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
@@ -71,6 +72,43 @@ TEST(FillHoles, APlatePartStaysAPlaneAndKeepsItsVertices)
             EXPECT_LT((filled.mesh.position.col(v) - Eigen::Vector3d(p.x(), p.y(), 0.3 * p.x() - 0.7 * p.y())).norm(),
                       1e-9);
         }
+    }
+}
+
+// As CAD faces are meshed: no vertex is inside a face, and slivers lead from hole to border.
+TEST(FillHoles, APlanePartOfSliversStaysAPlane)
+{
+    constexpr int corners = 4;
+    for (int seed = 0; seed < 40; ++seed) {
+        shapes::SeededRandom random(seed);
+        const int around = 4 * random.whole(6, 40);
+        const double radius = std::pow(10, random.between(-4, -0.5));
+        TriMesh part;
+        part.position.resize(3, corners + around);
+        part.position.leftCols(corners) << -1, 1, 1, -1, -1, -1, 1, 1, 0, 0, 0, 0;
+        for (int i = 0; i < around; ++i) {
+            const double turn = 2 * std::numbers::pi * (i + 0.5) / around;
+            part.position.col(corners + i) << 0.3 + radius * std::cos(turn), 0.2 + radius * std::sin(turn), 0;
+        }
+        const int quarter = around / 4;
+        const auto rim = [&](int i) { return corners + (i + around) % around; };
+        part.triangle.resize(3, corners + around);
+        for (int c = 0; c < corners; ++c) { // the corners' directions are those of the quarters' middles
+            const int first = (c + 2) % corners * quarter;
+            for (int i = 0; i < quarter; ++i)
+                part.triangle.col(c * quarter + i) << c, rim(first + i + 1), rim(first + i);
+            part.triangle.col(around + c) << c, (c + 1) % corners, rim(first + quarter);
+        }
+        const Eigen::Matrix2Xd plane = part.position.topRows(2);
+        part.position.row(2) = 0.3 * plane.row(0) - 0.7 * plane.row(1);
+        const FilledMesh filled = fill_holes(part, plane);
+        ASSERT_EQ(filled.fanned_holes, 0) << seed;
+        ASSERT_GT(filled.mesh.vertices(), part.vertices()) << seed;
+        EXPECT_NEAR(planar_area(filled), 4, 1e-12) << seed;
+        const Eigen::Matrix3Xd fill = filled.mesh.position.rightCols(filled.mesh.vertices() - part.vertices());
+        const Eigen::Matrix2Xd there = filled.plane.rightCols(fill.cols());
+        EXPECT_LT((fill.topRows(2) - there).cwiseAbs().maxCoeff(), 1e-6 * radius) << seed;
+        EXPECT_LT((fill.row(2) - 0.3 * there.row(0) + 0.7 * there.row(1)).cwiseAbs().maxCoeff(), 1e-6 * radius) << seed;
     }
 }
 
