@@ -126,11 +126,13 @@ Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, SheetSide sid
     std::vector<MarkedPlace> marked;
     for (const auto& sunk : by_hole(holes))
         marked.push_back({source_face[size_t(sunk.front()->face)], sunk.front()->centre, words(sunk)});
+    const bool drawn = taken == Skin::middle || wider_at(holes, side) < int(holes.size());
     return note_on(marked,
                    fmt::format("{} at a skin than inside (a countersink, a counterbore or a chamfer): what is laid "
-                               "flat has {}, and circles of the marks show where to sink; the first is a {}",
+                               "flat has {}{}; the first is a {}",
                                counted(marked.size(), "hole is wider", "holes are wider"),
-                               laid_flat(holes, int(marked.size()), taken, side, thickness), marked.front().what));
+                               laid_flat(holes, int(marked.size()), taken, side, thickness),
+                               drawn ? ", and circles of the marks show where to sink" : "", marked.front().what));
 }
 
 } // namespace spia

@@ -257,6 +257,17 @@ SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<S
     }
 }
 
+/// On a skin the holes that are sunk there are as wide as the tool that sinks them.
+void doubt_wide_holes(PartFile& part, const std::vector<SunkHole>& holes, SheetSide taken)
+{
+    if (const int wide = wider_at(holes, taken); wide > 0)
+        doubt(part,
+              fmt::format("{} at the {} skin, which is laid flat: cut so, what is sunk there is cut through; take "
+                          "the middle surface, where a hole has its least diameter ({})",
+                          counted(wide, "hole is wider", "holes are wider"), of_skin(taken),
+                          mention(option::skin, "middle")));
+}
+
 /// A solid whose file says that it is one may still be a block.
 void doubt_block(PartFile& part, const ThinSolid& sheet)
 {
@@ -386,6 +397,8 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             part.solid->marks.push_back(on_surface(outline, wanted, sheet.thickness));
         for (Eigen::Matrix3Xd& row : rows_of(holes, wanted, sheet.thickness))
             part.solid->marks.push_back(std::move(row));
+        if (wanted != Skin::middle)
+            doubt_wide_holes(part, holes, skin.side);
         std::optional<Finding> sunk;
         if (!holes.empty())
             sunk = finding_of(holes, wanted, skin.side, sheet.thickness, part.source_face);

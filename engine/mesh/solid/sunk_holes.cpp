@@ -208,6 +208,11 @@ int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin)
         holes, [&](const SunkHole& hole) { return hole.cut_off && hole.diameter > 0 && hole.skin == skin; }));
 }
 
+int wider_at(const std::vector<SunkHole>& holes, SheetSide skin)
+{
+    return int(std::ranges::count(holes, skin, &SunkHole::skin));
+}
+
 int sunk_in_bends(const std::vector<SunkHole>& holes)
 {
     return int(std::ranges::count_if(holes, [](const SunkHole& hole) { return hole.diameter == 0; }));
@@ -284,6 +289,9 @@ std::vector<Eigen::Matrix3Xd> rows_of(const std::vector<SunkHole>& holes, Skin s
             return before.hole == hole.hole && !before.cut_off &&
                    std::abs(before.diameter - hole.diameter) < same * thickness;
         };
+        // at the skin that is laid flat they are cut
+        if (surface != Skin::middle && (surface == Skin::outer) == (hole.skin == SheetSide::outer))
+            continue;
         if (!hole.cut_off && std::none_of(holes.begin(), holes.begin() + long(i), drawn))
             rows.push_back(circle_of(hole, surface, thickness));
     }

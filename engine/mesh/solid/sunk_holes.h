@@ -40,6 +40,9 @@ std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet);
 /// from that one, their edges are wider than they are cut.
 int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin);
 
+/// How many holes are wider at a skin than inside.
+int wider_at(const std::vector<SunkHole>& holes, SheetSide skin);
+
 /// How many are sunk into a bend, where their circle is on no plane.
 int sunk_in_bends(const std::vector<SunkHole>& holes);
 
@@ -66,7 +69,8 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
 int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes);
 
 /// The circle at the skin, or what there is of it, as rows of points on a surface of the sheet, 3
-/// by #points, mm. The same one at both skins is one row.
+/// by #points, mm. The same one at both skins is one row; on a skin only those at the other one are
+/// rows, for its own are its holes.
 std::vector<Eigen::Matrix3Xd> rows_of(const std::vector<SunkHole>& holes, Skin surface, double thickness);
 
 } // namespace spia

@@ -178,10 +178,12 @@ std::vector<std::string> shortcomings(const Session& session)
         if (const auto folded = folded_surface(session))
             list.push_back(*folded);
     if (session.surface)
-        for (const HoleLeftFilled& hole : session.surface->trim.left_filled)
-            list.push_back(fmt::format(
-                "the hole at vertex {} stays filled in the surface: {}; a smaller tolerance or other corners may help",
-                session.part->source_vertex[size_t(hole.vertex)], hole.why));
+        for (const HoleLeftFilled& hole : session.surface->trim.left_filled) {
+            const Eigen::Vector3d at = session.part->mesh.position.col(hole.vertex);
+            list.push_back(fmt::format("the hole near ({:.6g}, {:.6g}, {:.6g}) stays filled in the surface: {}; a "
+                                       "smaller tolerance or other corners may help",
+                                       at.x(), at.y(), at.z(), hole.why));
+        }
     if (by_deformation)
         list.push_back(fmt::format("the deformation makes the surface fold: {}; move its points less",
                                    unsuited(session.deformed->certificate).value_or("")));

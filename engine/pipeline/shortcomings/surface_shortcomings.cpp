@@ -57,8 +57,8 @@ std::optional<std::string> folded_surface(const Session& session)
         std::any_of(certificate.patch.begin(), certificate.patch.end(),
                     [](const PatchCertificate& each) { return each.refusal && !at_a_corner(*each.refusal); });
     std::string text;
-    if (refused)
-        text = fmt::format("the surface may have a fold: {}", unsuited(certificate).value_or(""));
+    if (const std::string why = unsuited(certificate).value_or(""); refused)
+        text = why.starts_with("it ") ? "the surface" + why.substr(2) : why;
     else if (const double turned = session.surface->deviation.normal.turned; turned > 0)
         text = fmt::format("the surface turns over against the part: on {} of its area the normals are opposite",
                            percent(turned));

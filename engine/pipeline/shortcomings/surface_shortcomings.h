@@ -13,7 +13,7 @@ namespace spia {
 /// usual_tolerance somewhere. (What was asked for and not reached is told by FitReport::shortfall.)
 std::optional<std::string> far_surface(const Session& session);
 
-/// It may have a fold: the certificate is refused elsewhere than at a corner of the grid on a
+/// It folds: the certificate is refused elsewhere than at a corner of the grid on a
 /// smooth outline, where CAD does not mind, or samples look the other way than the part. Of a
 /// deformed surface the one that leaves the program.
 std::optional<std::string> folded_surface(const Session& session);

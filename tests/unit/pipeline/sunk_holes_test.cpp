@@ -551,4 +551,37 @@ TEST(SunkHoles, AreNoneWherePlainHolesAre)
     }
 }
 
+TEST(SunkHoles, AtTheSkinThatIsLaidFlatAreDoubtedAndNotMarked)
+{
+    const ScratchFolder folder;
+    for (const bool left : {false, true}) {
+        BentSolid solid;
+        solid.kind = "sunk at one side";
+        solid.thickness = 4;
+        solid.width = 80;
+        solid.leg = {60, 60};
+        solid.bend = {{4, 1.2}};
+        solid.sink = {
+            {.leg = 0, .centre = {30, 40}, .hole = 2.5, .wide = 9, .depth = 2, .counterbore = true, .left = left}};
+        shapes::write_bent_solid(folder / "sunk.step", solid);
+        for (const Skin skin : {Skin::outer, Skin::inner, Skin::middle}) {
+            ReadOptions options;
+            options.skin = skin;
+            const PartFile part = read_part(folder / "sunk.step", options);
+            ASSERT_TRUE(part.solid);
+            // the bend turns to the left, so that its outside is on the right
+            const bool cut_wide = skin == (left ? Skin::inner : Skin::outer);
+            const auto wide = [](const std::string& doubt) {
+                return doubt.find("1 hole is wider at the") == 0 && doubt.find("take the middle surface") != doubt.npos;
+            };
+            EXPECT_EQ(std::ranges::count_if(part.doubts, wide), cut_wide) << int(skin) << left;
+            EXPECT_EQ(part.solid->marks.size(), cut_wide ? 0u : 1u) << int(skin) << left;
+            const auto marked = [](const Finding& finding) {
+                return finding.text.find("circles of the marks show where") != finding.text.npos;
+            };
+            EXPECT_EQ(std::ranges::count_if(part.doctor.findings, marked), !cut_wide) << int(skin) << left;
+        }
+    }
+}
+
 } // namespace spia

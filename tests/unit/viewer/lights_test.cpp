@@ -205,7 +205,7 @@ TEST_F(Lights, AFoldedSurfaceIsAmberHoweverNearItIs)
             return doubt.step == ChainStep::surface && doubt.text.find(words) != std::string::npos;
         });
     };
-    EXPECT_TRUE(says(find_doubts(folded), "it folds at u = 0.3"));
+    EXPECT_TRUE(says(find_doubts(folded), "The surface folds at u = 0.3"));
     surface->certificate.patch.at(0).refusal = Refusal{Refusal::Why::vanishes, {0, 1, {1, 2, 3}}};
     EXPECT_FALSE(says(find_doubts(folded), "fold")) << "at a corner on a smooth outline it has no angle";
     surface->deviation.normal.turned = 0.02;
