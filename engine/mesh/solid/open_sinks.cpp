@@ -161,61 +161,76 @@ private:
                 size += n.norm();
                 here.push_back(f);
             }
-        return mean.norm() <= turning * size && hollow(here, wall.up) && !goes_on(wall);
+        return mean.norm() <= turning * size && hollow(here, wall.up) && !is_straight(wall);
     }
 
-    /// Whether it goes on smoothly at another angle beyond an edge that is not along the skin: as
-    /// that of a hole does which is drilled askew.
-    bool goes_on(const Wall& wall) const
+    /// How the faces of a wall lie about one axis.
+    struct Turning {
+        Eigen::Vector3d axis;   ///< unit; that from which their normals deviate least
+        double lean;            ///< sine, of their mean normal over the plane across it
+        bool even;              ///< all lean so
+        Eigen::Matrix3Xd round; ///< their normals without the part along the axis
+    };
+
+    Turning turning_of(const std::vector<int>& face) const
     {
-        constexpr double smooth = 0.9, along_skin = 0.3; // cosine of 26 degrees; sine of 17 degrees
-        const double sliver = same_lean * sheet_.thickness;
+        constexpr double slivers = 0.05; // of the area
+        Eigen::Matrix3Xd n = normal_(Eigen::all, face).colwise().normalized();
+        const Eigen::RowVectorXd size = normal_(Eigen::all, face).colwise().norm();
+        const Eigen::Vector3d mean = n * size.transpose() / size.sum();
+        const Eigen::Matrix3Xd from = n.colwise() - mean;
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(from * size.asDiagonal() * from.transpose());
+        const Eigen::Vector3d axis = spread.eigenvectors().col(0);
+        const Eigen::RowVectorXd off = (axis.transpose() * from).cwiseAbs();
+        n -= axis * (axis.transpose() * n);
+        return {axis, mean.dot(axis), (off.array() > same_lean).select(size, 0).sum() < slivers * size.sum(),
+                std::move(n)};
+    }
+
+    /// The faces of a wall across the sheet that go on smoothly from these ones, ascending.
+    std::vector<int> smooth_from(std::vector<int> face, const auto& may_take) const
+    {
+        constexpr double smooth = 0.906; // 25 degrees, as CutOffHoles has it
+        for (size_t i = 0; i < face.size(); ++i)
+            for (const int next : neighbour_.col(face[i]))
+                if (rim(next) && unit(next).dot(unit(face[i])) >= smooth && may_take(next))
+                    face.push_back(next);
+        std::ranges::sort(face);
+        return face;
+    }
+
+    /// Whether it is of a wall along one axis: of a hole that is drilled askew, or through a bend,
+    /// whose skin leans against it.
+    bool is_straight(const Wall& wall) const
+    {
+        std::vector<char> in(up_.size(), 0);
         for (const int f : wall.face)
-            for (int k = 0; k < 3; ++k) {
-                const int next = neighbour_(k, f);
-                if (!rim(next) || std::ranges::binary_search(wall.face, next) || unit(f).dot(unit(next)) < smooth ||
-                    altitude(solid_, f, normal_.col(f)) < sliver || altitude(solid_, next, normal_.col(next)) < sliver)
-                    continue;
-                const Eigen::Vector3d edge =
-                    solid_.position.col(solid_.triangle((k + 1) % 3, f)) - solid_.position.col(solid_.triangle(k, f));
-                if (std::abs(edge.normalized().dot(wall.up)) > along_skin)
-                    return true;
-            }
-        return false;
+            in[size_t(f)] = 1;
+        const std::vector<int> all =
+            smooth_from(wall.face, [&](int next) { return !std::exchange(in[size_t(next)], char(1)); });
+        const Turning about = turning_of(all);
+        return about.even && std::abs(about.lean) < square;
     }
 
     /// Where no skin beside a wall is plane its own faces say about which axis it is a cone.
     std::optional<Wall> cone_over_bend(int seed)
     {
-        constexpr double smooth = 0.906, steepest = 0.7; // 25 degrees as CutOffHoles has it; 45
-        constexpr double turning = 0.955;                // as above, over an arc of 60 degrees
-        Wall wall{Eigen::Vector3d::Zero(), 0, {seed}};
+        constexpr double steepest = 0.7;  // cosine of 45 degrees
+        constexpr double turning = 0.955; // as above, over an arc of 60 degrees
         done_[size_t(seed)] = asked;
-        Eigen::Vector3d up = *up_[size_t(seed)] * normal_.col(seed).norm();
-        for (size_t i = 0; i < wall.face.size(); ++i)
-            for (const int next : neighbour_.col(wall.face[i])) {
-                if (!rim(next) || done_[size_t(next)] || unit(next).dot(unit(wall.face[i])) < smooth)
-                    continue;
-                done_[size_t(next)] = asked;
-                if (up_[size_t(next)])
-                    up += *up_[size_t(next)] * normal_.col(next).norm();
-                wall.face.push_back(next);
-            }
-        std::ranges::sort(wall.face);
-        Eigen::Matrix3Xd n = normal_(Eigen::all, wall.face).colwise().normalized();
+        Wall wall{Eigen::Vector3d::Zero(), 0,
+                  smooth_from({seed}, [&](int next) { return !std::exchange(done_[size_t(next)], asked); })};
+        Eigen::Vector3d up = Eigen::Vector3d::Zero();
+        for (const int f : wall.face)
+            if (up_[size_t(f)])
+                up += *up_[size_t(f)] * normal_.col(f).norm();
+        const Turning about = turning_of(wall.face);
+        const double turned = about.axis.dot(up) < 0 ? -1 : 1;
+        wall.up = turned * about.axis;
+        wall.lean = turned * about.lean;
         const Eigen::RowVectorXd size = normal_(Eigen::all, wall.face).colwise().norm();
-        const Eigen::Vector3d mean = n * size.transpose() / size.sum();
-        const Eigen::Matrix3Xd from = n.colwise() - mean;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(from * size.asDiagonal() * from.transpose());
-        wall.up = spread.eigenvectors().col(0);
-        wall.up *= wall.up.dot(up) < 0 ? -1 : 1;
-        wall.lean = mean.dot(wall.up);
-        n -= wall.up * (wall.up.transpose() * n);
-        const Eigen::RowVectorXd off = (wall.up.transpose() * from).cwiseAbs();
-        constexpr double slivers = 0.05; // of the area
-        const bool even = (off.array() > same_lean).select(size, 0).sum() < slivers * size.sum();
-        const bool turns = (n.colwise().normalized() * size.transpose()).norm() < turning * size.sum();
-        const bool cone = even && turns && leans(wall.lean) && wall.up.dot(up) > steepest * up.norm();
+        const bool turns = (about.round.colwise().normalized() * size.transpose()).norm() < turning * size.sum();
+        const bool cone = about.even && turns && leans(wall.lean) && wall.up.dot(up) > steepest * up.norm();
         return cone && hollow(wall.face, wall.up) ? std::optional(wall) : std::nullopt;
     }
 

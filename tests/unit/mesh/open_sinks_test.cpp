@@ -9,7 +9,8 @@
 namespace spia {
 namespace {
 
-/// A plate of 60 x 40 x 2 mm; its border at y = 0 goes that far into it in the middle, and leans.
+/// A plate of 60 x 40 x 2 mm; its border at y = 0 goes that far into it in the middle, and leans by
+/// the same angle everywhere.
 TriMesh plate(double sag)
 {
     TriMesh outer = shapes::rectangle(60, 40, 30, 8);
@@ -17,7 +18,8 @@ TriMesh plate(double sag)
     outer.position.colwise() -= outer.position.col(0).eval();
     for (int v = 0; v < outer.vertices(); ++v) {
         auto p = outer.position.col(v);
-        inwards.col(v) << 0, p.y() == 0 ? -1 : 0, -2;
+        const double slope = -2 * sag * (p.x() / 30 - 1) / 30;
+        inwards.col(v) << (p.y() == 0 ? Eigen::Vector2d(slope, -1).normalized() : Eigen::Vector2d::Zero()), -2;
         p.y() += sag * (1 - std::pow(p.x() / 30 - 1, 2)) * (1 - p.y() / 40);
     }
     return shapes::thickened(outer, inwards);

@@ -45,6 +45,35 @@ const char* name(Cut cut)
     return names[size_t(cut)];
 }
 
+/// A bracket with a row of round holes or slots through its bend, along the sheet's normal or
+/// askew.
+BentSolid drilled_bend(std::uint64_t seed)
+{
+    shapes::SeededRandom random(seed + 800);
+    BentSolid solid;
+    const double t = solid.thickness = random.between(1, 5), inner = t * random.between(0.8, 4);
+    solid.kind = fmt::format("drilled bend {}", seed);
+    solid.pose = seed;
+    solid.leg = {60, 50};
+    solid.bend = {{inner, random.between(0.7, 1.7) * (random.coin() ? 1 : -1)}};
+    const double arc = (inner + t / 2) * std::abs(solid.bend[0].angle);
+    const bool slots = random.coin(), askew = random.coin();
+    const int count = random.whole(1, 4);
+    const double across = arc * random.between(0.15, 0.5), along = slots ? across * random.between(1.2, 2) : across;
+    solid.width = count * (along + 3 * t);
+    for (int i = 0; i < count; ++i) {
+        shapes::BendCut cut;
+        cut.y = (i + 0.5) * solid.width / count;
+        cut.outline.length = across;
+        cut.outline.width = along;
+        cut.outline.radius = across / 2;
+        cut.lean = askew ? random.between(-0.4, 0.4) : 0;
+        cut.pitch = askew ? random.between(-0.2, 0.2) : 0;
+        solid.bend_cut.push_back(cut);
+    }
+    return solid;
+}
+
 /// One in a flat plate, an L or the web of a U, at a given skin.
 BentSolid cut_sink(std::uint64_t seed, int bends, bool left, bool counterbore, Cut cut)
 {
@@ -283,6 +312,26 @@ TEST(SunkHoles, ThatAreCountersinksAndEndUnderTheHollowOfABendAreTold)
         if (sink.hole + 0.4 * inner > sink.wide)
             continue; // the hole is in the bend
         expect_measured(folder, into_bend(seed, t, {inner, random.between(1.2, 1.6)}, 0.4 * inner, sink));
+    }
+}
+
+TEST(SunkHoles, AreNoPlainHolesThroughBends)
+{
+    // The skin leans against their walls all around them, which are straight nevertheless.
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const BentSolid solid = drilled_bend(seed);
+        for (const CadForm form : {CadForm::step, CadForm::stl}) {
+            SCOPED_TRACE(fmt::format("{}, {}", solid.kind, form == CadForm::stl ? "STL" : "STEP"));
+            const auto file = folder / (form == CadForm::stl ? "part.stl" : "part.step");
+            shapes::write_bent_solid(file, solid, form);
+            const PartFile part = read_part(file);
+            ASSERT_TRUE(part.solid);
+            EXPECT_EQ(part.doctor.boundary_loops, 1 + int(solid.bend_cut.size()));
+            for (const std::vector<std::string>& texts : {part.doubts, part.notes})
+                for (const std::string& text : texts)
+                    EXPECT_EQ(text.find("sink"), std::string::npos) << text;
+        }
     }
 }
 
