@@ -25,9 +25,6 @@ struct DxfArguments {
 /// @throws InputError if one makes no sense
 DxfOptions dxf_options(const DxfArguments& arguments);
 
-/// @throws InputError if some is given and the part is no CAD file
-CadOptions cad_options(const CadArguments& arguments, const std::filesystem::path& part);
-
 /// Of the part's triangles.
 struct RemeshArguments {
     bool wanted = false, unwanted = false;
@@ -36,14 +33,28 @@ struct RemeshArguments {
                                                        ///< not
 };
 
+/// What is read of a part's file, and how.
+struct ReadArguments {
+    std::string unit, skin;         ///< of a solid: outer, inner, middle; empty: middle
+    std::vector<std::string> parts; ///< of a solver deck, ids or names
+    std::string seam = "auto";      ///< auto, none, or a file of paths
+    std::optional<double> weld;     ///< mm, up to which open edges are joined; 0: what is at one
+                                    ///< place; not given: as the format needs
+    bool keep_largest = false;
+    CadArguments cad;
+    RemeshArguments remesh;
+};
+
+/// @throws InputError if something is given that the part's file has no use for
+ReadOptions read_options(const ReadArguments& arguments, const std::filesystem::path& part);
+
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, report, process;
-    std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty:
-                                                     ///< middle
-    std::string k_factor;                            ///< a number, a name or a file; empty: 0.5
-    std::vector<std::string> parts;                  ///< of a solver deck, ids or names
-    std::optional<double> thickness;                 ///< mm; not given: that of the part, else 1
-    std::string cells;                               ///< NxM; empty: automatic
+    ReadArguments read;
+    std::string material = "mild_steel";
+    std::string k_factor;            ///< a number, a name or a file; empty: 0.5
+    std::optional<double> thickness; ///< mm; not given: that of the part, else 1
+    std::string cells;               ///< NxM; empty: automatic
     std::vector<int> corners;
     std::vector<double> direction, rolling;
     GridOptions grid; ///< without the numbers of cells
@@ -66,11 +77,7 @@ struct RunArguments {
     std::optional<double> flc_n;
     std::optional<double> marginal;                ///< percent
     double max_thinning = 25, max_thickening = 10; ///< percent
-    std::string seam = "auto";                     ///< auto, none, or a file of paths
-    RemeshArguments remesh;
-    bool strict = false, keep_largest = false, skins = false;
-    std::optional<double> weld; ///< see set_welding()
-    CadArguments cad;
+    bool strict = false, skins = false;
     DxfArguments dxf;
 };
 
@@ -83,12 +90,7 @@ int run(const RunArguments& arguments);
 
 struct InfoArguments {
     std::filesystem::path part, json;
-    std::string unit, seam = "auto", skin;
-    std::vector<std::string> parts; ///< of a solver deck, ids or names
-    RemeshArguments remesh;
-    bool keep_largest = false;
-    std::optional<double> weld; ///< see set_welding()
-    CadArguments cad;
+    ReadArguments read;
 };
 
 /// Prints what the mesh doctor says. @returns 0, or 2 if the part would be refused
@@ -96,14 +98,12 @@ int info(const InfoArguments& arguments);
 
 struct CompareArguments {
     std::filesystem::path part, json;
-    std::string material = "mild_steel", unit, seam = "auto", skin;
-    std::vector<std::string> parts;  ///< of a solver deck, ids or names
+    ReadArguments read;
+    std::string material = "mild_steel";
     std::optional<double> thickness; ///< mm; not given: that of the deck, else 1
     std::vector<double> direction;
     std::vector<std::string> methods;
-    bool markdown = false, keep_largest = false;
-    std::optional<double> weld; ///< see set_welding()
-    CadArguments cad;
+    bool markdown = false;
 };
 
 /// Unfolds a part by several methods and prints how their maps compare.
@@ -113,13 +113,11 @@ int compare(const CompareArguments& arguments);
 struct UnfoldArguments {
     std::filesystem::path part, script, folder, json;
     std::filesystem::path to_part, to_blank; ///< files of lines to carry over
+    ReadArguments read;
     std::vector<std::string> formats;
     bool automatic = false;
-    /// of the files; empty name: the part's
-    std::string skin, material = "mild_steel", unit, seam = "auto", name;
-    std::string k_factor; ///< as for run
-    /// of a solver deck, ids or names
-    std::vector<std::string> parts;
+    std::string material = "mild_steel", name; ///< of the files; empty: the part's
+    std::string k_factor;                      ///< as for run
     /// direction of the sheet; empty: none
     std::vector<double> rolling;
     /// mm; not given: that of the deck, else 1
@@ -134,12 +132,9 @@ struct UnfoldArguments {
                                               ///< others are asked for
     std::optional<double> tolerance;          ///< mm, of that surface; not given: it runs through
                                               ///< the grid
-    RemeshArguments remesh;
-    bool polish = false; ///< also the blank of the whole part at once, started from that of the
-                         ///< steps
-    bool strict = false, keep_largest = false;
-    std::optional<double> weld; ///< see set_welding()
-    CadArguments cad;
+    /// also the blank of the whole part at once, started from that of the steps
+    bool polish = false;
+    bool strict = false;
     DxfArguments dxf;
 };
 
@@ -164,14 +159,6 @@ struct FitArguments {
 
 /// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
 int fit_material(const FitArguments& arguments);
-
-/// Whether the part is remeshed, and what its triangles should be like.
-void set_remeshing(ReadOptions& options, const RemeshArguments& arguments);
-
-/// @param gap  mm, up to which open edges are joined; 0: what is at one place; not given: as the
-/// format needs
-void set_welding(ReadOptions& options, std::optional<double> gap);
-MeshTargets mesh_targets(const RemeshArguments& arguments);
 
 /// @throws InputError if a K factor and a skin other than the middle surface are asked for
 void require_one_surface(const std::string& k_factor, const std::string& skin);

@@ -10,7 +10,6 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/files/seam_file.h"
 #include "engine/pipeline/flat_thickness.h"
 #include "engine/report/json/report_json.h"
 
@@ -20,17 +19,8 @@ int compare(const CompareArguments& arguments)
 {
     if (!arguments.json.empty())
         require_writable(arguments.json);
-    ReadOptions read;
-    if (!arguments.unit.empty())
-        read.unit = length_unit(arguments.unit);
-    set_welding(read, arguments.weld);
-    read.parts = arguments.parts;
-    read.cad = cad_options(arguments.cad, arguments.part);
+    ReadOptions read = read_options(arguments.read, arguments.part);
     read.cad.keep_triangles = true; // methods are compared on the triangles of the file
-    read.doctor.keep_largest = arguments.keep_largest;
-    if (!arguments.skin.empty())
-        read.skin = skin_by_name(arguments.skin);
-    read.seam = seam_options(arguments.seam);
     CompareOptions options;
     options.flatten.material = find_material(arguments.material, assets() / "materials");
     if (const std::vector<double>& d = arguments.direction; !d.empty()) {

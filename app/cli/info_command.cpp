@@ -9,7 +9,6 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/files/seam_file.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/report_json.h"
 
@@ -52,17 +51,7 @@ void print_solid(const SolidOrigin& solid)
 
 int info(const InfoArguments& arguments)
 {
-    ReadOptions options;
-    if (!arguments.unit.empty())
-        options.unit = length_unit(arguments.unit);
-    set_welding(options, arguments.weld);
-    options.parts = arguments.parts;
-    options.cad = cad_options(arguments.cad, arguments.part);
-    options.doctor.keep_largest = arguments.keep_largest;
-    if (!arguments.skin.empty())
-        options.skin = skin_by_name(arguments.skin);
-    options.seam = seam_options(arguments.seam);
-    set_remeshing(options, arguments.remesh);
+    const ReadOptions options = read_options(arguments.read, arguments.part);
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
     const DoctorReport& doctor = part.doctor;

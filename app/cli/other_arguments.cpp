@@ -10,12 +10,8 @@ namespace spia::cli {
 void add_arguments(CLI::App& command, InfoArguments& info)
 {
     add_part(command, info.part);
-    add_choice_of_parts(command, info.parts);
-    add_cad(command, info.cad);
-    add(command, option::skin, info.skin);
-    add_remesh(command, info.remesh);
-    add_repairs(command, info.unit, info.weld, info.keep_largest);
-    add(command, option::seam, info.seam);
+    add_reading(command, info.read);
+    add_remesh(command, info.read.remesh);
     command.add_option("--json", info.json, "write the findings")->type_name("FILE");
 }
 
@@ -30,11 +26,7 @@ void add_arguments(CLI::App& command, CompareArguments& comparison)
     add(command, option::material, comparison.material);
     add(command, option::thickness, comparison.thickness);
     add_direction(command, comparison.direction);
-    add(command, option::seam, comparison.seam);
-    add_choice_of_parts(command, comparison.parts);
-    add_cad(command, comparison.cad);
-    add(command, option::skin, comparison.skin);
-    add_repairs(command, comparison.unit, comparison.weld, comparison.keep_largest);
+    add_reading(command, comparison.read);
 }
 
 void add_arguments(CLI::App& command, FitArguments& fit)

@@ -16,18 +16,19 @@ void add_part(CLI::App& command, std::filesystem::path& part)
         ->type_name("PART");
 }
 
-void add_choice_of_parts(CLI::App& command, std::vector<std::string>& parts)
+void add_reading(CLI::App& command, ReadArguments& read)
 {
-    add(command, option::part, parts)->delimiter(',')->allow_extra_args(false);
-}
-
-void add_cad(CLI::App& command, CadArguments& cad)
-{
+    add(command, option::part, read.parts)->delimiter(',')->allow_extra_args(false);
     // what is wrong with these the reader says in its own words
-    add_unchecked(command, option::sewing, cad.sewing);
-    add_unchecked(command, option::deflection, cad.deflection);
-    add(command, option::chord_angle, cad.angle_deg);
-    add(command, option::skip_bad_faces, cad.skip_bad_faces);
+    add_unchecked(command, option::sewing, read.cad.sewing);
+    add_unchecked(command, option::deflection, read.cad.deflection);
+    add(command, option::chord_angle, read.cad.angle_deg);
+    add(command, option::skip_bad_faces, read.cad.skip_bad_faces);
+    add(command, option::skin, read.skin);
+    add(command, option::unit, read.unit);
+    add(command, option::weld, read.weld);
+    add(command, option::keep_largest, read.keep_largest);
+    add(command, option::seam, read.seam);
 }
 
 void add_remesh(CLI::App& command, RemeshArguments& remesh)
@@ -38,13 +39,6 @@ void add_remesh(CLI::App& command, RemeshArguments& remesh)
     add(command, option::remesh_tolerance, remesh.tolerance)->needs(wanted);
     add(command, option::least_angle, remesh.least_angle_deg);
     add(command, option::edge_ratio, remesh.edge_ratio);
-}
-
-void add_repairs(CLI::App& command, std::string& unit, std::optional<double>& weld, bool& keep_largest)
-{
-    add(command, option::unit, unit);
-    add(command, option::weld, weld);
-    add(command, option::keep_largest, keep_largest);
 }
 
 void add_rolling(CLI::App& command, std::vector<double>& rolling)

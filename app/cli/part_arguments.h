@@ -9,10 +9,9 @@ namespace spia::cli {
 void add_part(CLI::App& command, std::filesystem::path& part);
 
 /// What is read of the file, and how. The same for all subcommands.
-void add_choice_of_parts(CLI::App& command, std::vector<std::string>& parts);
-void add_cad(CLI::App& command, CadArguments& cad);
+void add_reading(CLI::App& command, ReadArguments& read);
+/// Of that what `compare` does not take.
 void add_remesh(CLI::App& command, RemeshArguments& remesh);
-void add_repairs(CLI::App& command, std::string& unit, std::optional<double>& weld, bool& keep_largest);
 
 /// Of the sheet.
 void add_rolling(CLI::App& command, std::vector<double>& rolling);

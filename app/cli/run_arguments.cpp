@@ -76,13 +76,9 @@ void add_arguments(CLI::App& command, RunArguments& run)
 {
     add_part(command, run.part);
     command.add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
-    add_choice_of_parts(command, run.parts);
-    add_cad(command, run.cad);
-    add(command, option::skin, run.skin);
+    add_reading(command, run.read);
+    add_remesh(command, run.read.remesh);
     add(command, option::k_factor, run.k_factor);
-    add_remesh(command, run.remesh);
-    add_repairs(command, run.unit, run.weld, run.keep_largest);
-    add(command, option::seam, run.seam);
     add_sheet(command, run);
     add_surface(command, run);
     add_files(command, run);

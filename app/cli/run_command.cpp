@@ -16,7 +16,6 @@
 #include "engine/pipeline/files/deform_file.h"
 #include "engine/pipeline/files/patch_file.h"
 #include "engine/pipeline/files/process_file.h"
-#include "engine/pipeline/files/seam_file.h"
 #include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/shortcomings/shortcomings.h"
@@ -50,19 +49,10 @@ LimitsOptions limits_options(const RunArguments& arguments)
 SessionOptions options(const RunArguments& arguments)
 {
     SessionOptions result;
-    if (!arguments.unit.empty())
-        result.read.unit = length_unit(arguments.unit);
-    set_welding(result.read, arguments.weld);
-    result.read.parts = arguments.parts;
-    result.read.cad = cad_options(arguments.cad, arguments.part);
-    result.read.doctor.keep_largest = arguments.keep_largest;
-    if (!arguments.skin.empty())
-        result.read.skin = skin_by_name(arguments.skin);
+    result.read = read_options(arguments.read, arguments.part);
     if (!arguments.k_factor.empty())
         result.k_factor = k_factor(arguments.k_factor);
-    require_one_surface(arguments.k_factor, arguments.skin);
-    result.read.seam = seam_options(arguments.seam);
-    set_remeshing(result.read, arguments.remesh);
+    require_one_surface(arguments.k_factor, arguments.read.skin);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     if (arguments.thickness) // else that of the deck, once it is read
         result.flatten.thickness = *arguments.thickness;

@@ -74,13 +74,9 @@ void add_arguments(CLI::App& command, UnfoldArguments& unfolding)
     add(command, option::material, unfolding.material);
     add(command, option::thickness, unfolding.thickness);
     add_rolling(command, unfolding.rolling);
-    add_choice_of_parts(command, unfolding.parts);
-    add_cad(command, unfolding.cad);
-    add(command, option::skin, unfolding.skin);
+    add_reading(command, unfolding.read);
+    add_remesh(command, unfolding.read.remesh);
     add(command, option::k_factor, unfolding.k_factor);
-    add_remesh(command, unfolding.remesh);
-    add_repairs(command, unfolding.unit, unfolding.weld, unfolding.keep_largest);
-    add(command, option::seam, unfolding.seam);
     command.add_flag("--polish", unfolding.polish,
                      "also solve the whole part at once, from the blank of the steps, and compare both blanks");
     add_surface(command, unfolding);

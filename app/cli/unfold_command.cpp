@@ -24,7 +24,6 @@
 #include "engine/pipeline/blank/parts_of_table.h"
 #include "engine/pipeline/blank/sharp_folds.h"
 #include "engine/pipeline/files/line_file.h"
-#include "engine/pipeline/files/seam_file.h"
 #include "engine/pipeline/files/unfold_file.h"
 #include "engine/pipeline/flat_thickness.h"
 #include "engine/pipeline/outputs/deck_outputs.h"
@@ -65,17 +64,7 @@ std::optional<KFactor> wanted_k(const UnfoldArguments& arguments)
 
 PartFile part_of(const UnfoldArguments& arguments)
 {
-    ReadOptions read;
-    if (!arguments.unit.empty())
-        read.unit = length_unit(arguments.unit);
-    set_welding(read, arguments.weld);
-    read.parts = arguments.parts;
-    read.cad = cad_options(arguments.cad, arguments.part);
-    read.doctor.keep_largest = arguments.keep_largest;
-    if (!arguments.skin.empty())
-        read.skin = skin_by_name(arguments.skin);
-    read.seam = seam_options(arguments.seam);
-    set_remeshing(read, arguments.remesh);
+    const ReadOptions read = read_options(arguments.read, arguments.part);
     JobDisplay display{"read"};
     return read_part(arguments.part, read, display.progress());
 }
@@ -406,7 +395,7 @@ int unfold(const UnfoldArguments& arguments)
     if (!arguments.json.empty())
         require_writable(arguments.json);
     FlattenOptions options = flatten_options(arguments);
-    require_one_surface(arguments.k_factor, arguments.skin);
+    require_one_surface(arguments.k_factor, arguments.read.skin);
     wanted_k(arguments); // before the work
     const PartFile part = part_of(arguments);
     require_deck_ids(arguments.formats, part);
