@@ -3,15 +3,12 @@
 #include <optional>
 #include <set>
 
-#include "engine/core/json_file.h"
+#include "engine/core/vector_json.h"
 #include "engine/pipeline/files/target_json.h"
 #include "engine/pipeline/files/unfold_file.h"
 
 namespace spia {
 namespace {
-
-Json xyz(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
-
 Json names_of(const BendMap& map, const std::vector<int>& labels)
 {
     Json list = Json::array();
@@ -27,8 +24,8 @@ Json regions_json(const BendMap& map)
         const bool region = label < int(map.regions.size());
         list.push_back({{"name", map.name(label)},
                         {"kind", region ? "region" : "bend"},
-                        {"at", xyz(region ? map.regions[size_t(label)].place
-                                          : map.bends[size_t(label) - map.regions.size()].place)},
+                        {"at", vector_json(region ? map.regions[size_t(label)].place
+                                                  : map.bends[size_t(label) - map.regions.size()].place)},
                         {"area_mm2", map.area_of(label)}});
     }
     return list;

@@ -2,16 +2,13 @@
 
 #include <numbers>
 
+#include "engine/core/vector_json.h"
 #include "engine/pipeline/blank/bend_report.h"
 
 namespace spia {
 namespace {
-
 constexpr double degrees = 180 / std::numbers::pi;
-
-Json xyz(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
-
-} // namespace
+}
 
 Json bend_table_json(const BendTable& table)
 {
@@ -33,8 +30,8 @@ Json bend_table_json(const BendTable& table)
                          {"laid_by_k", bend.laid},
                          {"why_not", bend.laid ? Json(nullptr) : Json(bend.why_not)},
                          {"way_out", bend.laid ? Json(nullptr) : Json(bend.way_out)},
-                         {"place_mm", xyz(bend.place)},
-                         {"axis", xyz(bend.axis)},
+                         {"place_mm", vector_json(bend.place)},
+                         {"axis", vector_json(bend.axis)},
                          {"lines_mm", std::move(lines)}});
     }
     return {{"surface", table.surface},

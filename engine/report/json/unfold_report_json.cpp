@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "engine/core/json_file.h"
+#include "engine/core/vector_json.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/command_line_json.h"
 #include "engine/pipeline/files/target_json.h"
@@ -14,8 +14,6 @@ namespace spia {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-
-Json xyz(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
 
 Json bends_json(const BendMap& map)
 {
@@ -32,7 +30,7 @@ Json bends_json(const BendMap& map)
                         {"length_mm", bend.length},
                         {"faces", bend.faces},
                         {"area_mm2", bend.area},
-                        {"at_mm", xyz(bend.place)}});
+                        {"at_mm", vector_json(bend.place)}});
     }
     return list;
 }
@@ -46,8 +44,8 @@ Json found_regions_json(const BendMap& map)
                         {"faces", region.faces},
                         {"area_mm2", region.area},
                         {"flatness", region.flatness},
-                        {"normal", xyz(region.normal)},
-                        {"at_mm", xyz(region.place)}});
+                        {"normal", vector_json(region.normal)},
+                        {"at_mm", vector_json(region.place)}});
     }
     return list;
 }
@@ -68,7 +66,7 @@ Json state_json(const UnfoldState& state)
                  {"overlap", {{"places", state.overlap.places}, {"landed", state.overlap.landed}}},
                  {"seconds", state.seconds}};
     if (state.overlap.places > 0)
-        json["overlap"]["first_mm"] = xyz(state.overlap.first);
+        json["overlap"]["first_mm"] = vector_json(state.overlap.first);
     if (state.on) {
         json["target"] = target_json(state.on->face);
         json["distance_to_held_mm"] = state.on->distance_mm;
