@@ -10,7 +10,7 @@
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/blank/bend_report.h"
 #include "engine/pipeline/outputs/iga_outputs.h"
-#include "engine/pipeline/shortcomings/certificate_report.h"
+#include "engine/pipeline/shortcomings/unsuited_surface.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/text/number_text.h"
 

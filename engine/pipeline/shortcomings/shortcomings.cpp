@@ -6,8 +6,8 @@
 #include "engine/forming/material/membrane_law.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/blank/bend_report.h"
-#include "engine/pipeline/shortcomings/certificate_report.h"
 #include "engine/pipeline/shortcomings/surface_shortcomings.h"
+#include "engine/pipeline/shortcomings/unsuited_surface.h"
 
 namespace spia {
 namespace {

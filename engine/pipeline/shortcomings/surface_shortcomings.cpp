@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/options/surface_options.h"
-#include "engine/pipeline/shortcomings/certificate_report.h"
+#include "engine/pipeline/shortcomings/unsuited_surface.h"
 #include "engine/pipeline/usual_tolerance.h"
 
 namespace spia {

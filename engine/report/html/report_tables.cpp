@@ -9,7 +9,7 @@
 #include "engine/exchange/text/text_encoding.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/blank/bend_report.h"
-#include "engine/pipeline/shortcomings/certificate_report.h"
+#include "engine/pipeline/shortcomings/unsuited_surface.h"
 #include "engine/report/figures/face_values.h"
 #include "engine/report/html/html_text.h"
 #include "engine/report/html/svg_chart.h"

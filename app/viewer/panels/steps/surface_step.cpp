@@ -8,7 +8,7 @@
 #include "app/viewer/panels/steps/fit_editor.h"
 #include "app/viewer/views/colour_scale.h"
 #include "engine/options/surface_options.h"
-#include "engine/pipeline/shortcomings/certificate_report.h"
+#include "engine/pipeline/shortcomings/unsuited_surface.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/pipeline/shortcomings/certificate_report.h"
+#include "engine/pipeline/shortcomings/unsuited_surface.h"
 
 #include <gtest/gtest.h>
 
