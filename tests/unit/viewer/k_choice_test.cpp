@@ -179,6 +179,23 @@ TEST_F(KChoice, IsUndoneAndKeptInProjects)
     EXPECT_GT(first_stale(document).value_or(Stage::fit), Stage::solve) << "and the blank of then";
 }
 
+TEST_F(KChoice, OfThePartBeforeIsSaidToBeGoneWhenAnotherIsOpened)
+{
+    const char* gone = "The K factor is 0.5 again; that of the part before was ";
+    open_bracket(6, pi / 2);
+    open_bracket(7, pi / 2);
+    EXPECT_FALSE(says(Severity::hint, gone)) << "none was chosen";
+    model.apply(SetKFactor{"0.42"});
+    wait();
+    model.apply(SaveProject{folder / "bracket.spia"});
+    open_bracket(8, pi / 2);
+    EXPECT_TRUE(says(Severity::hint, std::string(gone) + "0.42."));
+    EXPECT_FALSE(document.session.options.k_factor);
+    model.apply(OpenProject{folder / "bracket.spia"});
+    wait();
+    EXPECT_EQ(document.session.options.k_factor->name, "0.42") << "projects have their own";
+}
+
 TEST_F(KChoice, WhatIsNoneIsRefused)
 {
     ASSERT_NO_FATAL_FAILURE(open_bracket(4, 1));

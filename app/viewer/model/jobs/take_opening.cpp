@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <utility>
 
+#include "app/viewer/model/document/k_choice.h"
 #include "app/viewer/model/reports/grid_advice.h"
 #include "engine/report/text/sentence.h"
 
@@ -117,7 +119,8 @@ void ViewerModel::replace_document(Opening opening)
         opening.document.display.field = FieldDisplay{}.field;
         opening.document.display.range.reset();
     }
-    state_.document = std::move(opening.document);
+    const auto k_before = std::exchange(state_.document, std::move(opening.document)).session.options.k_factor;
+    const bool k_forgotten = k_before && !opening.project && !state_.document.session.options.k_factor;
     project_ = std::move(opening.project);
     state_.project = std::move(opening.project_file);
     state_.unsaved = opening.unsaved;
@@ -137,6 +140,9 @@ void ViewerModel::replace_document(Opening opening)
     ++documents_;
     if (!opening.note.empty())
         say(Severity::hint, std::move(opening.note));
+    if (k_forgotten)
+        say(Severity::hint, fmt::format("The K factor is {} again; that of the part before was {}.", KFactor{}.name,
+                                        k_words(k_before)));
 }
 
 void ViewerModel::report_failed(const ChainResult& result)

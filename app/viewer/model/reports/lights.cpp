@@ -51,8 +51,8 @@ void judge_sheet(const Document& document, LengthUnit lengths, std::vector<Doubt
             "{}The grade {} is {}.{}", doubt.text.empty() ? "" : " ", grade(document),
             document.material_from == SheetSource::before ? "that of the previous part" : "assumed", file_says);
     }
-    doubt.next = "Choose them here, or confirm.";
     const bool neither = !is_given(document.thickness_from) && !is_given(document.material_from);
+    doubt.next = neither ? "Choose them here, or confirm." : "Choose it here, or confirm.";
     doubt.button = neither                            ? fmt::format("Confirm {} of {}", thick, grade(document))
                    : is_given(document.material_from) ? "Confirm " + thick
                                                       : "Confirm " + grade(document);

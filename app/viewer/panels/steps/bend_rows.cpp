@@ -154,7 +154,8 @@ void k_factor_control(Frame& frame)
     const KSource now = k_source(k);
     ImGui::BeginDisabled(of_skin && !k);
     ImGui::SetNextItemWidth(170 * frame.ui.scale);
-    if (ImGui::BeginCombo("K factor", now == KSource::number ? "number" : k_words(k).c_str())) {
+    const std::string shown = now == KSource::number ? "number" : of_skin && !k ? "none, of a skin" : k_words(k);
+    if (ImGui::BeginCombo("K factor", shown.c_str())) {
         if (ImGui::Selectable("0.5, middle surface", now == KSource::automatic))
             frame.actions.push(SetKFactor{});
         if (ImGui::Selectable("number", now == KSource::number) && now != KSource::number)

@@ -134,6 +134,10 @@ void sheet_step(Frame& frame)
     if (changed || (once_more && !is_given(document.thickness_from)))
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
+    const auto& part = document.session.part;
+    if (part && part->solid && part->thickness_mm && *part->thickness_mm != thickness)
+        muted(frame, fmt::format("The solid is {} thick; its bends are laid with that",
+                                 thickness_text(*part->thickness_mm, frame.lengths())));
     if (document.material_from == SheetSource::preference || document.thickness_from == SheetSource::preference)
         muted(frame, document.material_from != SheetSource::preference    ? "Thickness of your preferences"
                      : document.thickness_from != SheetSource::preference ? "Grade of your preferences"
@@ -161,11 +165,12 @@ void direction_control(Frame& frame)
         frame.actions.push(SetDirection{wanted == 0   ? std::nullopt
                                         : wanted == 4 ? std::optional(chosen.value_or(found))
                                                       : std::optional<Eigen::Vector3d>(axes.col(wanted - 1))});
+    const Eigen::Vector3d shown = (found.array().abs() < 5e-4).select(0, found); // no -0.000
     tooltip(
         session.blank && !chosen
             ? fmt::format(
                   "Stamping direction found: {:.3f}, {:.3f}, {:.3f}. It defines the start of the unfolding, the plane of the blank and the outer side.",
-                  found[0], found[1], found[2])
+                  shown[0], shown[1], shown[2])
             : "Stamping direction of the press. It defines the start of the unfolding, the plane of the blank and the outer side.");
     if (now != 4)
         return;
