@@ -98,8 +98,9 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     const Eigen::Matrix2Xd X = start ? Eigen::Matrix2Xd(start->colwise() - start->rowwise().mean())
                                      : first_guess(part, element, matrix, cholesky, progress, result);
 
-    const SolveContext context{
-        part, element, options, external, plane, matrix, cholesky, false, pull_of(external, part, options), watch};
+    const double pull = pull_of(external, part, options);
+    SolveContext context{part,  element, options, std::move(external), plane, std::move(matrix), std::move(cholesky),
+                         false, pull,    watch};
     result.blank.position = solve(context, X, result.report, progress.part(0.1, 1));
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place(context, result.blank.position);

@@ -16,7 +16,7 @@ namespace {
 /// @param report  of all the forces at once, which had no solution; keeps its steps, and all else
 /// if there is none without
 ///                forces either
-std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
+std::optional<Eigen::Matrix2Xd> in_steps(SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
                                          AttemptReport& own, const Progress& progress)
 {
     const ExternalForces whole = context.external;
@@ -110,8 +110,7 @@ void add_share(SolveReport& report)
                                      100 * report.process_share);
 }
 
-Eigen::Matrix2Xd solve(const SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
-                       const Progress& progress)
+Eigen::Matrix2Xd solve(SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report, const Progress& progress)
 {
     if (!context.external.any()) {
         Eigen::Matrix2Xd blank = solve_at_once(context, X, report, progress);

@@ -33,8 +33,8 @@ constexpr double first_try = 0.1, rough = 1e-2, near_enough = 1e-3, exact = 1e-6
 
 /// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a
 /// start with strains of 5 is no number to begin with.
-EnergyResult energy_stage(const SolveContext& context, Curve curve, Eigen::Matrix2Xd X, double decrement,
-                          int most_steps, SolveReport& report, const Progress& progress)
+EnergyResult energy_stage(SolveContext& context, Curve curve, Eigen::Matrix2Xd X, double decrement, int most_steps,
+                          SolveReport& report, const Progress& progress)
 {
     std::vector<double> shares{1};
     if (largest_strain(context.part, context.element, X) > 2)
@@ -66,7 +66,7 @@ void take(EquilibriumResult& equilibrium, SolveReport& report)
 }
 
 /// The equations as they are, from a start X; none: they did not converge.
-std::optional<Eigen::Matrix2Xd> strict_equilibrium(const SolveContext& context, Eigen::Matrix2Xd X,
+std::optional<Eigen::Matrix2Xd> strict_equilibrium(SolveContext& context, Eigen::Matrix2Xd X,
                                                    const EquilibriumOptions& newton, SolveReport& report,
                                                    AttemptReport& own, const Progress& progress)
 {
@@ -184,9 +184,8 @@ EquilibriumOptions quick(EquilibriumOptions newton)
 
 /// With the curve as asked for, after its own energy stage and with a sparse LU in reserve.
 /// @param obstacle why there is none
-std::optional<Eigen::Matrix2Xd> as_asked_for(const SolveContext& context, const Eigen::Matrix2Xd& X,
-                                             SolveReport& report, std::string& obstacle, AttemptReport& own,
-                                             const Progress& progress)
+std::optional<Eigen::Matrix2Xd> as_asked_for(SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
+                                             std::string& obstacle, AttemptReport& own, const Progress& progress)
 {
     constexpr int few_steps = 40; // more means that strain is gathering in single elements
     const EnergyResult energy =
@@ -207,7 +206,7 @@ class ContinuedSolve {
 public:
     /// @param X  roughly that of the energy stage
     /// @param obstacle  why the curve as given was not kept
-    ContinuedSolve(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report, const std::string& obstacle)
+    ContinuedSolve(SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report, const std::string& obstacle)
         : context_(context), sheet_(sheet_with(context, Curve::continued)),
           work_(context.part, context.element, sheet_, context.external), report_(report),
           obstacle_(obstacle), energy_{std::move(X)}
@@ -293,7 +292,7 @@ private:
         return true;
     }
 
-    const SolveContext& context_;
+    SolveContext& context_;
     Sheet sheet_;
     VirtualWork work_;
     SolveReport& report_;
@@ -304,8 +303,7 @@ private:
 
 } // namespace
 
-Eigen::Matrix2Xd solve_at_once(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
-                               const Progress& progress)
+Eigen::Matrix2Xd solve_at_once(SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
 {
     const FlattenOptions& options = context.options;
     report.trusted_strain = trusted_strain(context, Curve::given, options.material.hardening);

@@ -21,11 +21,10 @@ struct SolveContext {
     const TriMesh& part;
     const std::vector<Element>& element;
     const FlattenOptions& options;
-    ExternalForces& external;                 ///< what sticks to travelling tools is found on the
-                                              ///< way
-    const Eigen::Matrix<double, 3, 2>& plane; ///< axes of the blank in space
-    BlockMatrix& matrix;
-    Cholesky& cholesky;
+    ExternalForces external;           ///< what sticks to travelling tools is found on the way
+    Eigen::Matrix<double, 3, 2> plane; ///< axes of the blank in space
+    BlockMatrix matrix;
+    Cholesky cholesky;
     bool anchored = false; ///< the start has the held vertices of `external` at their places: from
                            ///< the energy stage on they stay
     double pull = 0;       ///< see pull_of()
@@ -59,7 +58,7 @@ std::string describe_convergence(const SolveReport& report, const std::string& o
 /// From a flip-free start X to the blank, with all forces of the tools at once: energy, then
 /// equilibrium; each way tried where the one before did not get there. SolvedSystem::strict stands
 /// for the equations with Curve::given.
-Eigen::Matrix2Xd solve_at_once(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
+Eigen::Matrix2Xd solve_at_once(SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
                                const Progress& progress);
 
 } // namespace spia

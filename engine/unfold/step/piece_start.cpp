@@ -142,7 +142,7 @@ int first_flipped(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X)
 }
 
 /// Springs that grow stiffer, until the held vertices can be put where they belong.
-Attempt drawn_to_places(const SolveContext& context, Eigen::Matrix2Xd X, const Progress& progress)
+Attempt drawn_to_places(SolveContext& context, Eigen::Matrix2Xd X, const Progress& progress)
 {
     constexpr double little = 0.5;   // strain that the last move may add
     constexpr double softest = 1e-3; // of Young's modulus times thickness
@@ -188,7 +188,7 @@ InitialGuess guess(const TriMesh& mesh, int vertices, const Progress& progress)
 } // namespace
 
 PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                       const FreedPiece& piece, const SolveContext& context,
+                       const FreedPiece& piece, SolveContext& context,
                        const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
 {
     constexpr double far_off = 0.7; // of the held vertices' spread: turned inside out

@@ -24,7 +24,7 @@ struct PieceStart {
 /// elements of the context
 /// @throws SolveError if there is none: names the face whose triangle stands in the way
 PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                       const FreedPiece& piece, const SolveContext& context,
+                       const FreedPiece& piece, SolveContext& context,
                        const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress = {});
 
 } // namespace spia

@@ -165,7 +165,7 @@ void take_lengths(const FreedPiece& piece, const PiecePicture& picture, const Ei
 /// taken.
 /// @param X the solution with other lengths
 /// @param face what it lies on, in words
-Eigen::Matrix2Xd in_rounds(const SolveContext& context, const std::function<void(const Eigen::Matrix2Xd&)>& measure,
+Eigen::Matrix2Xd in_rounds(SolveContext& context, const std::function<void(const Eigen::Matrix2Xd&)>& measure,
                            Eigen::Matrix2Xd X, std::string_view face, SolveReport& report, const Progress& progress)
 {
     constexpr int most_rounds = 30;
@@ -208,7 +208,7 @@ Eigen::Matrix2Xd in_rounds(const SolveContext& context, const std::function<void
 }
 
 PieceStart start_of(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                    const FreedPiece& piece, const PiecePicture& picture, const SolveContext& context,
+                    const FreedPiece& piece, const PiecePicture& picture, SolveContext& context,
                     const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
 {
     if (picture.ring) {
@@ -260,9 +260,10 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
     Cholesky cholesky(matrix);
-    const SolveContext context{piece.mesh, element,        options,
-                               external,   external.plane, matrix,
-                               cholesky,   true,           pull_of(external, piece.mesh, options)};
+    const double pull = pull_of(external, piece.mesh, options);
+    const Eigen::Matrix<double, 3, 2> plane = external.plane;
+    SolveContext context{piece.mesh,          element, options, std::move(external), plane, std::move(matrix),
+                         std::move(cholesky), true,    pull};
     SolvedPiece result;
     const PieceStart start = start_of(part, state, fixed, piece, picture, context, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;
