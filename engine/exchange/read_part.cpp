@@ -80,8 +80,8 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     PartFile part;
     if (is_deck("." + extension)) {
         const PolygonSoup soup = soup_of_deck(path, options, part, progress.part(0, 0.5));
-        prepare_part(part, soup, options, part.deck->copies, false, nullptr, progress.part(0.5, 1));
-        return part;
+        const bool weld = part.deck->copies;
+        return prepare_part(std::move(part), soup, options, weld, false, nullptr, progress.part(0.5, 1));
     }
     if (is_cad("." + extension)) {
         const CadContent cad = read_cad(path, options.cad, options.parts, options.unit, progress.part(0, 0.8));
@@ -90,7 +90,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
                              !cad.unit.empty(), cad.tree,  cad.surface};
         part.unit = options.unit.value_or(LengthUnit::mm);
         const CornerNormals normals(cad.soup, cad.normal);
-        prepare_part(part, cad.soup, options, true, cad.solid, &normals, progress.part(0.8, 1));
+        part = prepare_part(std::move(part), cad.soup, options, true, cad.solid, &normals, progress.part(0.8, 1));
         part.cad->curves = cad.curves;
         part.cad->curves.renumber(part.same_as);
         report_cad(cad, part);
@@ -107,21 +107,34 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         part.notes.push_back("lengths were read as metres, as the glTF specification says");
     for (Eigen::Vector3d& p : file.soup.position)
         p *= millimetres(part.unit);
-    prepare_part(part, file.soup, options, gltf || extension == "stl", false, nullptr, progress.part(0.5, 1));
-    return part;
+    const bool weld = gltf || extension == "stl";
+    return prepare_part(std::move(part), file.soup, options, weld, false, nullptr, progress.part(0.5, 1));
 }
 
 /// Healthy parts alone can be remeshed.
 PartFile remeshed(const fs::path& path, const ReadOptions& options, const Progress& progress)
 {
     PartFile part = examine_file(path, options, progress.part(0, 0.4));
-    if (part.doctor.healthy() && options.remesh)
-        remesh_part(part, *options.remesh, progress.part(0.4, 1));
-    else if (part.doctor.healthy() && part.cad && !options.cad.keep_triangles)
-        remesh_needles(part, options.cad.deflection, progress.part(0.4, 1));
-    if (part.doctor.healthy())
-        check_targets(options.targets, part);
+    if (!part.doctor.healthy())
+        return part;
+    if (options.remesh)
+        part = remesh_part(std::move(part), *options.remesh, progress.part(0.4, 1));
+    else if (part.cad && !options.cad.keep_triangles)
+        part = remesh_needles(std::move(part), options.cad.deflection, progress.part(0.4, 1));
+    add(part, on_targets(options.targets, part));
     return part;
+}
+
+/// What else could be read of the file, line by line; empty if it holds one part.
+std::string choice_of(const PartFile& part)
+{
+    if (part.cad && part.cad->tree.bodies() > 1)
+        return fmt::format("\nThe file has several bodies; choose by number or name ({}):\n{}", mention(option::part),
+                           item_list(part.cad->tree));
+    if (part.deck && part.deck->parts.size() > 1)
+        return fmt::format("\nThe deck has several parts; choose by id or name ({}):\n{}", mention(option::part),
+                           part_list(part.deck->parts));
+    return "";
 }
 
 /// Does the work and puts the file's name before whatever is wrong with it.
@@ -145,19 +158,8 @@ PartFile read_part(const std::filesystem::path& path, const ReadOptions& options
 {
     return named(path, [&] {
         PartFile part = remeshed(path, options, progress);
-        try {
-            require_healthy(part.doctor);
-        } catch (const InputError& error) {
-            if (!options.parts.empty())
-                throw;
-            if (part.cad && part.cad->tree.bodies() > 1)
-                throw InputError(fmt::format("{}\nThe file has several bodies; choose by number or name ({}):\n{}",
-                                             error.what(), mention(option::part), item_list(part.cad->tree)));
-            if (!part.deck || part.deck->parts.size() < 2)
-                throw;
-            throw InputError(fmt::format("{}\nThe deck has several parts; choose by id or name ({}):\n{}", error.what(),
-                                         mention(option::part), part_list(part.deck->parts)));
-        }
+        if (const auto why = refusal(part.doctor))
+            throw InputError(*why + (options.parts.empty() ? choice_of(part) : ""));
         return part;
     });
 }

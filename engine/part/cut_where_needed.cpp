@@ -52,27 +52,32 @@ SeamOptions in_mesh(SeamOptions seam, const PartFile& part, const PolygonSoup& f
     return seam;
 }
 
-void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
+/// @param row  of the seam, vertices of the file
+Finding finding_of(const CutPart& cut, const TriMesh& uncut, const std::vector<std::vector<int>>& row)
 {
     Tally where;
     std::vector<Eigen::Vector3d> place;
     for (size_t r = 0; r < cut.seam.size(); ++r)
         for (size_t i = 0; i < cut.seam[r].size(); ++i) {
-            where.add(part.seam[r][i]);
+            where.add(row[r][i]);
             if (place.size() < where.where.size())
                 place.push_back(uncut.position.col(cut.seam[r][i]));
         }
     const Eigen::Vector3d &from = place.front(), &to = place[std::min(place.size(), cut.seam.front().size()) - 1];
     const int paths = int(cut.seam.size());
-    part.doctor.add(
-        Fault::seam, Severity::repaired, where,
+    return Finding{
+        Fault::seam,
+        Severity::repaired,
+        where.count,
+        where.first,
         fmt::format(
             "cut open along a seam of {:.4g} mm{}, from vertex {} at {:.4g}, {:.4g}, {:.4g} mm to vertex {} at {:.4g}, "
             "{:.4g}, {:.4g} mm: {}; the blank has an edge on both sides of it, to be joined after forming",
-            cut.length, paths > 1 ? fmt::format(" in {} paths, the first", paths) : "", part.seam[0].front(), from.x(),
-            from.y(), from.z(), part.seam[0].back(), to.x(), to.y(), to.z(), cut.why),
-        "");
-    part.doctor.findings.back().place = std::move(place);
+            cut.length, paths > 1 ? fmt::format(" in {} paths, the first", paths) : "", row[0].front(), from.x(),
+            from.y(), from.z(), row[0].back(), to.x(), to.y(), to.z(), cut.why),
+        "",
+        where.where,
+        std::move(place)};
 }
 
 /// "90 degrees at 4 corners"
@@ -84,11 +89,11 @@ std::string describe(const CornerSeam& seam)
 
 } // namespace
 
-void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file)
+PartFile cut_where_needed(PartFile part, SeamOptions seam, const PolygonSoup& file)
 {
     DoctorReport& report = part.doctor;
     if (seam.mode == SeamOptions::Mode::none || sick_beyond_a_cut(report) || report.components != 1 || !report.genus)
-        return;
+        return part;
     std::string unrolls;
     if (seam.mode == SeamOptions::Mode::corners) {
         const auto corners = *report.boundary_loops > 0 ? corner_seam(part.mesh) : std::nullopt;
@@ -105,7 +110,7 @@ void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file)
     if (!unrolls.empty())
         cut.why = unrolls.substr(1);
     if (cut.seam.empty())
-        return;
+        return part;
     part.seam = cut.seam;
     for (std::vector<int>& row : part.seam)
         for (int& v : row)
@@ -114,7 +119,7 @@ void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file)
     for (Finding& finding : report.findings)
         if (finding.fault == Fault::closed_surface || finding.fault == Fault::handle)
             finding.severity = Severity::repaired;
-    report_seam(cut, part.mesh, part);
+    report.findings.push_back(finding_of(cut, part.mesh, part.seam));
     std::vector<int> source;
     for (const int v : cut.source)
         source.push_back(part.source_vertex[size_t(v)]);
@@ -124,15 +129,16 @@ void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file)
     report.boundary_loops = type.loops;
     report.genus = type.genus;
     report.euler_characteristic = 2 - 2 * type.genus - type.loops;
+    return part;
 }
 
-void note_corners(PartFile& part, const SeamOptions& seam)
+std::optional<Finding> closed_corners(const PartFile& part, const SeamOptions& seam)
 {
     if (!part.doctor.healthy() || seam.mode == SeamOptions::Mode::given || !surface_type(part.mesh).sheet())
-        return;
+        return std::nullopt;
     const auto corners = corner_seam(part.mesh);
     if (!corners)
-        return;
+        return std::nullopt;
     Tally where;
     std::vector<Eigen::Vector3d> place;
     for (const int v : corners->corner) {
@@ -140,12 +146,16 @@ void note_corners(PartFile& part, const SeamOptions& seam)
         if (place.size() < where.where.size())
             place.push_back(part.mesh.position.col(v));
     }
-    part.doctor.add(
-        Fault::closed_corner, Severity::note, where,
+    return Finding{
+        Fault::closed_corner,
+        Severity::note,
+        where.count,
+        where.first,
         fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", describe(*corners)),
         fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain ({})", corners->length,
-                    mention(option::seam, "corners")));
-    part.doctor.findings.back().place = std::move(place);
+                    mention(option::seam, "corners")),
+        where.where,
+        std::move(place)};
 }
 
 } // namespace spia

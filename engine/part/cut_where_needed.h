@@ -5,12 +5,12 @@
 
 namespace spia {
 
-/// Cuts open what is no sheet, or where it was asked for, and turns the findings that would have
-/// refused it into repairs.
+/// The part cut open where it is no sheet, or where it was asked for, with the findings that would
+/// have refused it turned into repairs.
 /// @param file  the faces as they were read; the seam names vertices of it
-void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file);
+PartFile cut_where_needed(PartFile part, SeamOptions seam, const PolygonSoup& file);
 
-/// Says where a few cuts would let the part unroll.
-void note_corners(PartFile& part, const SeamOptions& seam);
+/// Where a few cuts would let the part unroll; nothing if there is no such place.
+std::optional<Finding> closed_corners(const PartFile& part, const SeamOptions& seam);
 
 } // namespace spia

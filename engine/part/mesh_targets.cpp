@@ -39,8 +39,9 @@ void require_sense(const MeshTargets& targets)
 
 } // namespace
 
-void check_targets(const MeshTargets& targets, PartFile& part)
+Remarks on_targets(const MeshTargets& targets, const PartFile& part)
 {
+    Remarks remarks;
     require_sense(targets);
     Missed angle, ratio;
     for (int f = 0; f < part.mesh.triangles(); ++f) {
@@ -55,15 +56,14 @@ void check_targets(const MeshTargets& targets, PartFile& part)
     const auto tell = [&](const Missed& missed, std::string what) {
         if (missed.count == 0)
             return;
-        part.notes.push_back(fmt::format("{} {} (worst: face {}){}",
-                                         counted(missed.count, "triangle has", "triangles have"), what,
-                                         part.source_face[size_t(missed.worst)], advice));
-        part.doubts.push_back(part.notes.back());
+        remarks.doubt(fmt::format("{} {} (worst: face {}){}", counted(missed.count, "triangle has", "triangles have"),
+                                  what, part.source_face[size_t(missed.worst)], advice));
     };
     tell(angle, fmt::format("an angle below {:.3g} degrees, the least {:.3g}",
                             targets.least_angle.value_or(0) * degrees, angle.value * degrees));
     tell(ratio, fmt::format("edges whose lengths differ by more than {:.3g} times, the most {:.3g}",
                             targets.edge_ratio.value_or(0), ratio.value));
+    return remarks;
 }
 
 } // namespace spia

@@ -4,6 +4,7 @@
 namespace spia {
 
 struct PartFile;
+struct Remarks;
 
 /// What the triangles of a part should be like.
 struct MeshTargets {
@@ -14,8 +15,8 @@ struct MeshTargets {
     bool operator==(const MeshTargets&) const = default;
 };
 
-/// Counts the triangles that miss them: adds a note and a doubt that names the worst of them.
+/// A doubt for each of them that triangles miss: how many do, and which is the worst.
 /// @throws InputError  a target that no triangle, or every one, meets
-void check_targets(const MeshTargets& targets, PartFile& part);
+Remarks on_targets(const MeshTargets& targets, const PartFile& part);
 
 } // namespace spia

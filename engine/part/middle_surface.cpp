@@ -39,68 +39,76 @@ std::string counted_open(const std::vector<OpenSink>& sinks)
 
 } // namespace
 
-SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
-                        const std::vector<OpenSink>& open, const ThinSolidOptions& units)
+MiddleSurface middle_surface(const TriMesh& solid, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
+                             const std::vector<OpenSink>& open, const ThinSolidOptions& units)
 {
+    MiddleSurface result;
+    Remarks& remarks = result.remarks;
     const int outer = cut_at(SheetSide::outer, holes, open), inner = cut_at(SheetSide::inner, holes, open);
     const bool exchanged = outer > inner;
     const SheetSide made_from = exchanged ? SheetSide::inner : SheetSide::outer;
     if (const int cut = cut_off_at(holes, made_from); cut > 0)
-        doubt(part, fmt::format("{} where the countersink is in the middle of the sheet, wider than the hole",
-                                counted(cut,
-                                        "sunk hole is cut off at the skin that the middle surface is made from: laid "
-                                        "flat, its edge is",
-                                        "sunk holes are cut off at the skin that the middle surface is made from: laid "
-                                        "flat, their edges are")));
+        remarks.doubt(
+            fmt::format("{} where the countersink is in the middle of the sheet, wider than the hole",
+                        counted(cut,
+                                "sunk hole is cut off at the skin that the middle surface is made from: laid "
+                                "flat, its edge is",
+                                "sunk holes are cut off at the skin that the middle surface is made from: laid "
+                                "flat, their edges are")));
     if (const int bent = sunk_in_bends(holes); bent > 0)
-        doubt(part, fmt::format("{} at the {} skin, and the least diameter only where a straight wall ends there",
-                                counted(bent, "hole is sunk in a bend: laid flat, its edge is that",
-                                        "holes are sunk in bends: laid flat, their edges are those"),
-                                of_skin(made_from)));
+        remarks.doubt(fmt::format("{} at the {} skin, and the least diameter only where a straight wall ends there",
+                                  counted(bent, "hole is sunk in a bend: laid flat, its edge is that",
+                                          "holes are sunk in bends: laid flat, their edges are those"),
+                                  of_skin(made_from)));
     if (const int through = int(sunk_through(holes, sheet.thickness).size()); through > 0)
-        doubt(part, counted(through,
-                            "sunk hole is cut off and has no straight wall below: laid flat, its edge is about where "
-                            "the wall crosses the middle of the sheet, not its least diameter",
-                            "sunk holes are cut off and have no straight wall below: laid flat, their edges are about "
-                            "where the walls cross the middle of the sheet, not their least diameters"));
+        remarks.doubt(
+            counted(through,
+                    "sunk hole is cut off and has no straight wall below: laid flat, its edge is about where "
+                    "the wall crosses the middle of the sheet, not its least diameter",
+                    "sunk holes are cut off and have no straight wall below: laid flat, their edges are about "
+                    "where the walls cross the middle of the sheet, not their least diameters"));
     const ThinSolid from = exchanged ? sides_exchanged(sheet) : sheet;
-    const std::vector<SunkHole> sunk = exchanged ? sunk_holes(part.mesh, from) : holes;
-    SkinMesh skin = skin_of(part.mesh, from, Skin::middle, units);
+    const std::vector<SunkHole> sunk = exchanged ? sunk_holes(solid, from) : holes;
+    SkinMesh& skin = result.skin = skin_of(solid, from, Skin::middle, units);
     if (!units.surface.empty())
-        onto_surfaces(skin, part.mesh, from, units);
-    straighten_holes(skin, part.mesh, sunk, from.thickness);
+        onto_surfaces(skin, solid, from, units);
+    straighten_holes(skin, solid, sunk, from.thickness);
     if (!units.surface.empty()) {
-        const std::vector<int> done = holes_over_bends(skin, part.mesh, from, units.surface);
-        round_border(skin, part.mesh, from, units.surface, done);
+        const std::vector<int> done = holes_over_bends(skin, solid, from, units.surface);
+        round_border(skin, solid, from, units.surface, done);
     }
     narrow_holes(skin, sunk);
     if (exchanged) {
         skin.mesh.triangle.row(1).swap(skin.mesh.triangle.row(2));
         skin.side = SheetSide::inner;
     }
-    return skin;
+    return result;
 }
 
-void tell_open_sinks(PartFile& part, const std::vector<OpenSink>& open, Skin taken, SheetSide side)
+Remarks on_open_sinks(const std::vector<OpenSink>& open, Skin taken, SheetSide side)
 {
+    Remarks remarks;
     std::vector<OpenSink> through, above, below;
     for (const OpenSink& sink : open)
         (!sink.land ? through : sink.skin == side ? above : below).push_back(sink);
     if (!through.empty())
-        doubt(part, counted_open(through) + ": no straight wall is below, and the edge that is laid flat lies where "
-                                            "the wall crosses the middle of the sheet, unevenly; draw it at its least "
-                                            "diameter");
+        remarks.doubt(counted_open(through) +
+                      ": no straight wall is below, and the edge that is laid flat lies where "
+                      "the wall crosses the middle of the sheet, unevenly; draw it at its least "
+                      "diameter");
     if (!above.empty() && taken == Skin::middle)
-        doubt(part, counted_open(above) + fmt::format(": others are sunk at the other skin, and what is laid flat is "
-                                                      "its edge at the {} skin, wider than the hole below; draw the "
-                                                      "hole",
-                                                      of_skin(side)));
+        remarks.doubt(counted_open(above) + fmt::format(": others are sunk at the other skin, and what is laid flat is "
+                                                        "its edge at the {} skin, wider than the hole below; draw the "
+                                                        "hole",
+                                                        of_skin(side)));
     else if (!above.empty())
-        part.notes.push_back(counted_open(above) + fmt::format(": its edge at the {} skin is laid flat, wider than the "
-                                                               "hole below",
-                                                               of_skin(side)));
+        remarks.notes.push_back(counted_open(above) +
+                                fmt::format(": its edge at the {} skin is laid flat, wider than the "
+                                            "hole below",
+                                            of_skin(side)));
     if (!below.empty())
-        part.notes.push_back(counted_open(below) + ": the hole below is laid flat, marks do not show where to sink");
+        remarks.notes.push_back(counted_open(below) + ": the hole below is laid flat, marks do not show where to sink");
+    return remarks;
 }
 
 } // namespace spia

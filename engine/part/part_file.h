@@ -108,11 +108,22 @@ struct PartFile {
                                              ///< source_face are new
 };
 
-/// A note of something that may not be as it was meant.
-inline void doubt(PartFile& part, std::string text)
+/// What is told of a part, beside what the doctor finds.
+struct Remarks {
+    std::vector<std::string> notes, doubts; ///< as those of a PartFile
+
+    /// A note of something that may not be as it was meant.
+    void doubt(std::string text)
+    {
+        notes.push_back(text);
+        doubts.push_back(std::move(text));
+    }
+};
+
+inline void add(PartFile& part, const Remarks& remarks)
 {
-    part.notes.push_back(text);
-    part.doubts.push_back(std::move(text));
+    part.notes.insert(part.notes.end(), remarks.notes.begin(), remarks.notes.end());
+    part.doubts.insert(part.doubts.end(), remarks.doubts.begin(), remarks.doubts.end());
 }
 
 } // namespace spia

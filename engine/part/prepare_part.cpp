@@ -1,6 +1,8 @@
 #include "engine/part/prepare_part.h"
 
 #include <fmt/core.h>
+#include <optional>
+#include <utility>
 
 #include "engine/mesh/topology.h"
 #include "engine/part/cut_where_needed.h"
@@ -9,24 +11,25 @@
 namespace spia {
 namespace {
 
-void note_size(PartFile& part, bool unit_given)
+/// What it may be that a part of such a size is not meant; nothing if it is likely.
+std::optional<std::string> unlikely_size(const PartFile& part, bool unit_given)
 {
     if (part.mesh.vertices() == 0)
-        return;
+        return std::nullopt;
     constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's
                                                 // plate
     const double diagonal = bounding_diagonal(part.mesh);
     const bool unit_known = unit_given || (part.cad && part.cad->unit_stated) || (part.deck && part.deck->unit_stated);
-    if (!unit_known && (diagonal < small || diagonal > large))
-        part.notes.push_back(
-            fmt::format("the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",
-                        diagonal, name(part.unit)));
+    if (unit_known || (diagonal >= small && diagonal <= large))
+        return std::nullopt;
+    return fmt::format("the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",
+                       diagonal, name(part.unit));
 }
 
 } // namespace
 
-void prepare_part(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, bool weld, bool solid,
-                  const CornerNormals* normals, const Progress& progress)
+PartFile prepare_part(PartFile part, const PolygonSoup& soup, const ReadOptions& options, bool weld, bool solid,
+                      const CornerNormals* normals, const Progress& progress)
 {
     part.file_vertices = soup.vertices();
     part.file_faces = soup.polygons();
@@ -38,20 +41,21 @@ void prepare_part(PartFile& part, const PolygonSoup& soup, const ReadOptions& op
     part.source_vertex = std::move(examination.source_vertex);
     part.source_face = std::move(examination.source_face);
     part.same_as = std::move(examination.same_as);
-    const bool refused = take_skin(part, options, solid, normals, progress.part(0.6, 0.95));
+    TakenSkin taken = take_skin(std::move(part), options, solid, normals, progress.part(0.6, 0.95));
     progress.checkpoint(0.95, "finding where it must be cut open");
-    if (!refused)
-        cut_where_needed(part, options.seam, soup);
-    note_corners(part, options.seam);
-    note_size(part, options.unit.has_value());
+    part = taken.refused ? std::move(taken.part) : cut_where_needed(std::move(taken.part), options.seam, soup);
+    if (auto corners = closed_corners(part, options.seam))
+        part.doctor.findings.push_back(std::move(*corners));
+    if (auto size = unlikely_size(part, options.unit.has_value()))
+        part.notes.push_back(std::move(*size));
+    return part;
 }
 
 PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const Progress& progress)
 {
     PartFile part;
     part.format = "in memory";
-    prepare_part(part, soup, options, false, false, nullptr, progress);
-    return part;
+    return prepare_part(std::move(part), soup, options, false, false, nullptr, progress);
 }
 
 } // namespace spia

@@ -13,18 +13,18 @@
 
 namespace spia {
 
-void remesh_needles(PartFile& part, std::optional<double> deflection, const Progress& progress)
+PartFile remesh_needles(PartFile part, std::optional<double> deflection, const Progress& progress)
 {
     constexpr double needle = 15 * std::numbers::pi / 180; // of one triangle in a hundred
     constexpr double unrolls = 0.02; // bent parts measured have 0 to rounding, the flattest of the
                                      // drawn ones 0.9
     if (triangle_quality(part.mesh).least_angle_of_99 > needle)
-        return;
+        return part;
     if (curvature_off_bends(part) < unrolls) {
         if (std::erase_if(part.doctor.findings, [](const Finding& f) { return f.fault == Fault::sliver; }))
             part.notes.push_back(
                 "the long narrow triangles lie along the rulings of a developable surface and do not affect the strains");
-        return;
+        return part;
     }
     try {
         RemeshOptions remesh;
@@ -32,10 +32,12 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
                         // than can be
             remesh.tolerance =
                 std::clamp(*deflection, 1e-6 * bounding_diagonal(part.mesh), 1e-3 * bounding_diagonal(part.mesh));
-        remesh_part(part, remesh, progress);
-        part.notes.push_back(fmt::format("needle triangles were remeshed, because the part does not unroll and they "
-                                         "would falsify its strains; they can be kept ({})",
-                                         mention(option::no_remesh)));
+        PartFile remeshed = remesh_part(part, remesh, progress);
+        remeshed.notes.push_back(
+            fmt::format("needle triangles were remeshed, because the part does not unroll and they "
+                        "would falsify its strains; they can be kept ({})",
+                        mention(option::no_remesh)));
+        return remeshed;
     } catch (const InputError& error) {
         for (Finding& finding : part.doctor.findings)
             if (finding.fault == Fault::sliver)
@@ -45,6 +47,7 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
         part.notes.push_back(fmt::format(
             "needle triangles make the strains of this part unreliable, which does not unroll; they were not remeshed: {}",
             error.what()));
+        return part;
     }
 }
 

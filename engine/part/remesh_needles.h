@@ -10,6 +10,6 @@ namespace spia {
 /// should be. On others they are chords that differ from triangle to triangle, which is taken for
 /// strain: they go unasked, or a note says why not.
 /// @param deflection  mm, of the triangles from the CAD faces, if it was asked for
-void remesh_needles(PartFile& part, std::optional<double> deflection, const Progress& progress);
+PartFile remesh_needles(PartFile part, std::optional<double> deflection, const Progress& progress);
 
 } // namespace spia

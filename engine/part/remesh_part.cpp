@@ -84,7 +84,7 @@ RemeshResult remeshed_with_bends(const PartFile& part, const RemeshOptions& opti
 
 } // namespace
 
-void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& progress)
+PartFile remesh_part(PartFile part, const RemeshOptions& options, const Progress& progress)
 {
     std::vector<int> sheet; // parts of a deck may differ in thickness and grade
     if (part.deck)
@@ -119,6 +119,7 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
         part.notes.push_back(fmt::format(
             "{} of its triangles still {} an angle below 1 degree, where lines of the part are close to each other; strains there are unreliable",
             slivers, slivers == 1 ? "has" : "have"));
+    return part;
 }
 
 PartFile as_read(const PartFile& part)

@@ -26,13 +26,13 @@ struct Remeshed {
     double seconds = 0;
 };
 
-/// Puts a remeshed mesh in the place of the part's own, which stays in PartFile::remeshed. Its
+/// The part with a remeshed mesh in the place of its own, which stays in PartFile::remeshed. Its
 /// vertices and faces are called by the numbers of the file that they are nearest to, so several
 /// can have the same one and others of the file are not there any more; borders between parts of a
 /// deck are kept as lines. The triangles of a CAD part are nobody's but ours: the new ones take
 /// their place, with numbers of their own, and CadOrigin::face says on which CAD face each lies.
 /// @throws InputError  as remesh() does
-void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& progress = {});
+PartFile remesh_part(PartFile part, const RemeshOptions& options, const Progress& progress = {});
 
 /// The part of a deck as it was before it was remeshed.
 PartFile as_read(const PartFile& part);

@@ -164,40 +164,33 @@ void replace_mesh(PartFile& part, const SkinMesh& skin)
     part.mesh = std::move(examination.mesh);
 }
 
-/// What stood for the part until its marks were put back.
-struct AsMarked {
-    TriMesh mesh;
-    std::vector<int> source_vertex, source_face;
+/// A part without the shallow marks of its skins.
+struct PlainPart {
+    PartFile part;
+    ThinSolid sheet;
+    std::optional<Finding> marks = {};      ///< that were taken away
+    std::vector<MarkOutline> outlines = {}; ///< of these
 };
 
-void put_back(PartFile& part, AsMarked& marked)
-{
-    part.mesh = std::move(marked.mesh);
-    part.source_vertex = std::move(marked.source_vertex);
-    part.source_face = std::move(marked.source_face);
-}
-
-/// Measures the solid; its shallow marks are taken out of the part before.
-/// @param marked, found, outlines set to the part as it was, what was done to it, and of the marks,
-/// if it had any
+/// Measures the solid, too.
 /// @throws NotASheet
-ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::optional<AsMarked>& marked,
-                            std::optional<Finding>& found, std::vector<MarkOutline>& outlines, const Progress& progress)
+PlainPart without_its_marks(const PartFile& part, const CornerNormals* normals, const Progress& progress)
 {
-    ThinSolid sheet = thin_solid(part.mesh, faces_of(part, normals, stated_by_cad(part)), progress);
-    if (sheet.marks.empty())
-        return sheet;
-    PlainSolid plain = without_marks(part.mesh, sheet, stated_by_cad(part));
-    outlines = mark_outlines(part.mesh, sheet, plain);
-    found = finding_of(sheet.marks, sheet, part.source_face);
-    std::vector<int> vertex, face;
-    for (const int v : plain.source_vertex)
-        vertex.push_back(part.source_vertex[size_t(v)]);
-    for (const int f : plain.source_face)
-        face.push_back(part.source_face[size_t(f)]);
-    marked = {std::exchange(part.mesh, std::move(plain.mesh)), std::exchange(part.source_vertex, std::move(vertex)),
-              std::exchange(part.source_face, std::move(face))};
-    return thin_solid(part.mesh, faces_of(part, normals, stated_by_cad(part)), progress);
+    PlainPart plain{part, thin_solid(part.mesh, faces_of(part, normals, stated_by_cad(part)), progress)};
+    if (plain.sheet.marks.empty())
+        return plain;
+    PlainSolid solid = without_marks(part.mesh, plain.sheet, stated_by_cad(part));
+    plain.outlines = mark_outlines(part.mesh, plain.sheet, solid);
+    plain.marks = finding_of(plain.sheet.marks, plain.sheet, part.source_face);
+    plain.part.mesh = std::move(solid.mesh);
+    plain.part.source_vertex.clear();
+    plain.part.source_face.clear();
+    for (const int v : solid.source_vertex)
+        plain.part.source_vertex.push_back(part.source_vertex[size_t(v)]);
+    for (const int f : solid.source_face)
+        plain.part.source_face.push_back(part.source_face[size_t(f)]);
+    plain.sheet = thin_solid(plain.part.mesh, faces_of(plain.part, normals, stated_by_cad(plain.part)), progress);
+    return plain;
 }
 
 /// Says why it is a hollow body, if it may be another thing.
@@ -210,71 +203,76 @@ void note_hollow(PartFile& part, const std::string& why)
                                          why, mention(option::skin, "middle")));
 }
 
-/// @returns whether it is taken for a solid of sheet; says so where it may be the other thing as
-/// well
-bool decide(PartFile& part, const ThinSolid& sheet)
+/// "a solid of sheet 2 mm thick and a hollow body of its size are the same closed surface, ..."
+std::string either(const ThinSolid& sheet)
 {
-    const ClosedSurface closed = sheet_or_hollow(sheet);
-    const std::string either =
-        fmt::format("a solid of sheet {:.6g} mm thick and a hollow body of its size are the same closed surface, and "
-                    "the file does not say which it is; the sheet would be {:.2g} times as thick as it is wide",
-                    sheet.thickness, proportion(sheet));
-    if (closed == ClosedSurface::perhaps_sheet)
-        doubt(part, fmt::format("{}. It is taken as a solid; a hollow body is cut open along a seam that you give ({})",
-                                either, mention(option::seam, "FILE")));
-    if (closed == ClosedSurface::perhaps_hollow)
-        doubt(part, fmt::format("{}. It is taken as a hollow body; for a solid choose the skin that stands for it ({})",
-                                either, mention(option::skin, "middle")));
-    return closed != ClosedSurface::perhaps_hollow;
+    return fmt::format(
+        "a solid of sheet {:.6g} mm thick and a hollow body of its size are the same closed surface, and "
+        "the file does not say which it is; the sheet would be {:.2g} times as thick as it is wide",
+        sheet.thickness, proportion(sheet));
 }
 
-/// The surface that is wanted. Where none was asked for and there is no middle one the outer skin
-/// is better than nothing, and a doubt.
-/// @param wanted  set to the one that is taken
-SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
-                     const std::vector<OpenSink>& open, Skin& wanted, bool asked, const ThinSolidOptions& units)
+/// A surface of a solid of sheet that can be laid flat.
+struct LaidSkin {
+    SkinMesh mesh;
+    Skin kind;
+    Remarks remarks;
+};
+
+/// Where none was asked for and there is no middle one the outer skin is better than nothing, and a
+/// doubt.
+LaidSkin laid_skin(const TriMesh& solid, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
+                   const std::vector<OpenSink>& open, std::optional<Skin> asked, const ThinSolidOptions& units)
 {
+    const Skin wanted = asked.value_or(Skin::middle);
     try {
-        SkinMesh skin = wanted == Skin::middle ? middle_surface(part, sheet, holes, open, units)
-                                               : skin_of(part.mesh, sheet, wanted, units);
-        if (skin.straightened > 0)
-            part.notes.push_back(fmt::format(
-                "{} not halfway along an edge that crosses the sheet askew but straight below the {} skin, up to "
-                "half a thickness beside it, for triangles not to turn over",
-                counted(skin.straightened, "vertex of the middle surface lies", "vertices of the middle surface lie"),
-                of_skin(skin.side)));
-        return skin;
+        LaidSkin laid{{}, wanted, {}};
+        if (wanted == Skin::middle) {
+            MiddleSurface middle = middle_surface(solid, sheet, holes, open, units);
+            laid.mesh = std::move(middle.skin);
+            laid.remarks = std::move(middle.remarks);
+        } else
+            laid.mesh = skin_of(solid, sheet, wanted, units);
+        if (laid.mesh.straightened > 0)
+            laid.remarks.notes.push_back(
+                fmt::format("{} not halfway along an edge that crosses the sheet askew but straight below the {} skin, "
+                            "up to half a thickness beside it, for triangles not to turn over",
+                            counted(laid.mesh.straightened, "vertex of the middle surface lies",
+                                    "vertices of the middle surface lie"),
+                            of_skin(laid.mesh.side)));
+        return laid;
     } catch (const NotASheet& reason) {
         if (asked)
             throw;
-        part.notes.push_back(fmt::format(
-            "{}. Nothing else was asked for, so the outer skin is laid flat: lengths over bends are those of the outer "
-            "skin, which are longer than the sheet's",
-            reason.what()));
-        part.doubts.push_back(part.notes.back());
-        wanted = Skin::outer;
-        return skin_of(part.mesh, sheet, wanted, units);
+        LaidSkin laid{skin_of(solid, sheet, Skin::outer, units), Skin::outer, {}};
+        laid.remarks.doubt(fmt::format("{}. Nothing else was asked for, so the outer skin is laid flat: lengths over "
+                                       "bends are those of the outer skin, which are longer than the sheet's",
+                                       reason.what()));
+        return laid;
     }
 }
 
 /// On a skin the holes that are sunk there are as wide as the tool that sinks them.
-void doubt_wide_holes(PartFile& part, const std::vector<SunkHole>& holes, SheetSide taken)
+Remarks on_wide_holes(const std::vector<SunkHole>& holes, SheetSide taken)
 {
+    Remarks remarks;
     if (const int wide = wider_at(holes, taken); wide > 0)
-        doubt(part,
-              fmt::format("{} at the {} skin, which is laid flat: cut so, what is sunk there is cut through; take "
-                          "the middle surface, where a hole has its least diameter ({})",
-                          counted(wide, "hole is wider", "holes are wider"), of_skin(taken),
-                          mention(option::skin, "middle")));
+        remarks.doubt(fmt::format(
+            "{} at the {} skin, which is laid flat: cut so, what is sunk there is cut through; take "
+            "the middle surface, where a hole has its least diameter ({})",
+            counted(wide, "hole is wider", "holes are wider"), of_skin(taken), mention(option::skin, "middle")));
+    return remarks;
 }
 
 /// A solid whose file says that it is one may still be a block.
-void doubt_block(PartFile& part, const ThinSolid& sheet)
+Remarks on_block(const ThinSolid& sheet)
 {
+    Remarks remarks;
     if (sheet_or_hollow(sheet) == ClosedSurface::perhaps_hollow)
-        doubt(part, fmt::format("the solid is {:.2g} times as thick as it is wide, which is more like a block than a "
-                                "sheet; it is taken as sheet {:.6g} mm thick",
-                                proportion(sheet), sheet.thickness));
+        remarks.doubt(fmt::format("the solid is {:.2g} times as thick as it is wide, which is more like a block than a "
+                                  "sheet; it is taken as sheet {:.6g} mm thick",
+                                  proportion(sheet), sheet.thickness));
+    return remarks;
 }
 
 /// Of triangles, per face of the file; empty where none is known.
@@ -289,131 +287,151 @@ Surfaces of_file_faces(const PartFile& part, const Surfaces& surface)
     return result;
 }
 
-/// @returns whether there are any
-bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, SheetSide laid, const Surfaces& surface)
+/// Of bends that are not as thick as the sheet; nothing if there are none.
+Remarks on_uneven_bends(const TriMesh& solid, const ThinSolid& sheet, SheetSide laid, const Surfaces& surface)
 {
     const std::vector<UnevenBend> bends = uneven_bends(sheet, surface);
+    Remarks remarks;
     if (bends.empty())
-        return false;
+        return remarks;
     const UnevenBend& first = bends.front();
-    const Eigen::Vector3d place = part.mesh.position.col(part.mesh.triangle(0, first.face));
-    doubt(part, fmt::format(
-                    "{} arcs of radius {:.4g} and {:.4g} mm on both skins of a sheet of {:.4g} mm, at {:.6g}, {:.6g}, "
+    const Eigen::Vector3d place = solid.position.col(solid.triangle(0, first.face));
+    remarks.doubt(
+        fmt::format("{} arcs of radius {:.4g} and {:.4g} mm on both skins of a sheet of {:.4g} mm, at {:.6g}, {:.6g}, "
                     "{:.6g} mm{}: it is not as thick there, and inner radius and length are told and laid by the arc "
                     "of the {} skin and the thickness elsewhere",
                     counted(bends.size(), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
                     place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : "", of_skin(laid)));
-    return true;
+    return remarks;
 }
 
 /// @param uneven_told  bends that are not as thick as the sheet have been told with their radii
-void note_skin(PartFile& part, bool uneven_told)
+Remarks on_skin(const PartFile& part, bool uneven_told)
 {
+    Remarks remarks;
     const SolidOrigin& solid = *part.solid;
     const int taken = solid.side == SheetSide::inner ? solid.inner_faces : solid.outer_faces;
     const std::string what = solid.skin == Skin::middle
                                  ? fmt::format("middle surface, from the {} of its {} skin,",
                                                counted(taken, "face", "faces"), of_skin(solid.side))
                                  : fmt::format("{} skin of {}", name(solid.skin), counted(taken, "face", "faces"));
-    part.notes.push_back(fmt::format("a solid of {}{}: its {} is taken, sheet {:.6g} mm thick (another surface "
-                                     "of it: {})",
-                                     counted(solid.faces, "face", "faces"),
-                                     solid.open ? ", some of which are missing" : "", what, solid.thickness,
-                                     mention(option::skin)));
+    remarks.notes.push_back(fmt::format("a solid of {}{}: its {} is taken, sheet {:.6g} mm thick (another surface "
+                                        "of it: {})",
+                                        counted(solid.faces, "face", "faces"),
+                                        solid.open ? ", some of which are missing" : "", what, solid.thickness,
+                                        mention(option::skin)));
     constexpr double uneven = 1.15; // a bend with one radius on both sides is up to 1.41 times as
                                     // thick
     if (part.cad && !uneven_told && solid.most > uneven * solid.thickness)
-        doubt(part,
-              fmt::format(
-                  "the sheet is up to {:.4g} mm thick, {:.3g} times {:.4g} mm: where arcs of both skins have not one "
-                  "axis, inner radius and length of a bend are those of a sheet as thick as elsewhere",
-                  solid.most, solid.most / solid.thickness, solid.thickness));
+        remarks.doubt(fmt::format(
+            "the sheet is up to {:.4g} mm thick, {:.3g} times {:.4g} mm: where arcs of both skins have not one "
+            "axis, inner radius and length of a bend are those of a sheet as thick as elsewhere",
+            solid.most, solid.most / solid.thickness, solid.thickness));
     const std::string least = fmt::format("{:.4g}", solid.least), most = fmt::format("{:.4g}", solid.most);
-    part.notes.push_back(
+    remarks.notes.push_back(
         fmt::format("thickness {}; outer skin {:.6g} mm2, inner skin {:.6g} mm2, faces across the "
                     "thickness {:.6g} mm2",
                     least == most ? least + " mm everywhere" : fmt::format("between {} and {} mm", least, most),
                     solid.outer_area, solid.inner_area, solid.rim_area));
+    return remarks;
+}
+
+/// The part with a skin in the place of the solid that it is.
+/// @throws NotASheet
+PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& options, bool solid,
+                   const CornerNormals* normals, const Progress& progress)
+{
+    const bool open = *examined.doctor.boundary_loops > 0;
+    PlainPart plain = without_its_marks(examined, normals, progress);
+    PartFile& part = plain.part;
+    ThinSolid& sheet = plain.sheet;
+    Remarks remarks;
+    if (claim == Claim::measured && !solid) {
+        const ClosedSurface closed = sheet_or_hollow(sheet);
+        if (closed == ClosedSurface::perhaps_hollow) {
+            remarks.doubt(fmt::format("{}. It is taken as a hollow body; for a solid choose the skin that stands for "
+                                      "it ({})",
+                                      either(sheet), mention(option::skin, "middle")));
+            PartFile hollow = examined;
+            add(hollow, remarks);
+            return hollow;
+        }
+        if (closed == ClosedSurface::perhaps_sheet)
+            remarks.doubt(fmt::format("{}. It is taken as a solid; a hollow body is cut open along a seam that you "
+                                      "give ({})",
+                                      either(sheet), mention(option::seam, "FILE")));
+    }
+    add(part, remarks);
+    if (solid && !open && !options.skin)
+        add(part, on_block(sheet));
+    Surfaces surface = stated_by_cad(part);
+    const bool measured = surface.empty();
+    if (measured)
+        surface = measured_cylinders(part.mesh, sheet);
+    else
+        sheet.thickness = stated_thickness(part.mesh, sheet, surface);
+    const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
+    const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
+    const LaidSkin laid = laid_skin(part.mesh, sheet, holes, sinks, options.skin, faces_of(part, normals, surface));
+    add(part, laid.remarks);
+    const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.mesh.side, surface);
+    add(part, uneven);
+    add(part, on_open_sinks(sinks, laid.kind, laid.mesh.side));
+    const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
+    part.solid = {laid.kind,
+                  sheet.thickness,
+                  sheet.least,
+                  sheet.most,
+                  sheet.outer,
+                  sheet.inner,
+                  area(laid.mesh.mesh),
+                  sheet.rim,
+                  sheet.volume,
+                  faces(examined, [](size_t) { return true; }),
+                  faces(part, on(SheetSide::outer)),
+                  faces(part, on(SheetSide::inner)),
+                  open,
+                  {},
+                  laid.mesh.side};
+    if (measured)
+        part.solid->surface = of_file_faces(part, surface);
+    for (const MarkOutline& outline : plain.outlines)
+        part.solid->marks.push_back(on_surface(outline, laid.kind, sheet.thickness));
+    for (Eigen::Matrix3Xd& row : rows_of(holes, laid.kind, sheet.thickness))
+        part.solid->marks.push_back(std::move(row));
+    if (laid.kind != Skin::middle)
+        add(part, on_wide_holes(holes, laid.mesh.side));
+    std::optional<Finding> sunk;
+    if (!holes.empty())
+        sunk = finding_of(holes, laid.kind, laid.mesh.side, sheet.thickness, part.source_face);
+    part.thickness_mm = sheet.thickness;
+    replace_mesh(part, laid.mesh);
+    add(part, on_skin(part, !uneven.doubts.empty()));
+    for (std::optional<Finding>* each : {&plain.marks, &sunk})
+        if (*each)
+            part.doctor.findings.push_back(std::move(**each));
+    return std::move(plain.part);
 }
 
 } // namespace
 
-bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const CornerNormals* normals,
-               const Progress& progress)
+TakenSkin take_skin(PartFile part, const ReadOptions& options, bool solid, const CornerNormals* normals,
+                    const Progress& progress)
 {
     const Claim claim = claim_of(part, options, solid);
     if (claim == Claim::none)
-        return false;
+        return {std::move(part)};
     const bool open = *part.doctor.boundary_loops > 0;
     if (open && !seems_thin_solid(part.mesh)) { // and a skin was asked for
         part.notes.push_back("it is no solid but a surface already, and taken as it is: there is no skin to choose");
-        return false;
+        return {std::move(part)};
     }
-    std::optional<AsMarked> marked;
-    std::optional<Finding> marks;
-    std::vector<MarkOutline> outlines;
-    const int all_faces = faces(part, [](size_t) { return true; });
     try {
-        ThinSolid sheet = without_its_marks(part, normals, marked, marks, outlines, progress);
-        if (claim == Claim::measured && !solid && !decide(part, sheet)) {
-            if (marked)
-                put_back(part, *marked);
-            return false;
-        }
-        if (solid && !open && !options.skin)
-            doubt_block(part, sheet);
-        Surfaces surface = stated_by_cad(part);
-        const bool measured = surface.empty();
-        if (measured)
-            surface = measured_cylinders(part.mesh, sheet);
-        else
-            sheet.thickness = stated_thickness(part.mesh, sheet, surface);
-        const ThinSolidOptions units = faces_of(part, normals, surface);
-        Skin wanted = options.skin.value_or(Skin::middle);
-        const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
-        const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
-        SkinMesh skin = wanted_skin(part, sheet, holes, sinks, wanted, options.skin.has_value(), units);
-        const bool uneven = !measured && doubt_uneven_bends(part, sheet, skin.side, surface);
-        tell_open_sinks(part, sinks, wanted, skin.side);
-        const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
-        part.solid = {wanted,
-                      sheet.thickness,
-                      sheet.least,
-                      sheet.most,
-                      sheet.outer,
-                      sheet.inner,
-                      area(skin.mesh),
-                      sheet.rim,
-                      sheet.volume,
-                      all_faces,
-                      faces(part, on(SheetSide::outer)),
-                      faces(part, on(SheetSide::inner)),
-                      open,
-                      {},
-                      skin.side};
-        if (measured)
-            part.solid->surface = of_file_faces(part, surface);
-        for (const MarkOutline& outline : outlines)
-            part.solid->marks.push_back(on_surface(outline, wanted, sheet.thickness));
-        for (Eigen::Matrix3Xd& row : rows_of(holes, wanted, sheet.thickness))
-            part.solid->marks.push_back(std::move(row));
-        if (wanted != Skin::middle)
-            doubt_wide_holes(part, holes, skin.side);
-        std::optional<Finding> sunk;
-        if (!holes.empty())
-            sunk = finding_of(holes, wanted, skin.side, sheet.thickness, part.source_face);
-        part.thickness_mm = sheet.thickness;
-        replace_mesh(part, skin);
-        note_skin(part, uneven);
-        for (std::optional<Finding>* each : {&marks, &sunk})
-            if (*each)
-                part.doctor.findings.push_back(std::move(**each));
+        return {with_skin(part, claim, options, solid, normals, progress)};
     } catch (const NotASheet& reason) {
-        if (marked)
-            put_back(part, *marked);
         if (claim == Claim::measured && !reason.sheet_but_for_it) {
             note_hollow(part, reason.what());
-            return false;
+            return {std::move(part)};
         }
         if (open)
             part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of "
@@ -421,9 +439,8 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
                                              reason.what()));
         else
             refuse(part, reason, solid);
-        return !open;
+        return {std::move(part), !open};
     }
-    return false;
 }
 
 } // namespace spia

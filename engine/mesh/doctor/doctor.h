@@ -123,7 +123,9 @@ struct Examination {
 /// faces keep the order of the file. Never throws for what the soup contains (only Cancelled).
 Examination examine(const PolygonSoup& soup, const DoctorOptions& options = {}, const Progress& progress = {});
 
-/// @throws InputError with the first three fatal findings and what to do about them
+/// The first three fatal findings and what to do about them; nothing if there are none.
+std::optional<std::string> refusal(const DoctorReport& report);
+/// @throws InputError with the refusal(), if there is one
 void require_healthy(const DoctorReport& report);
 
 } // namespace spia

@@ -67,7 +67,7 @@ bool counts_vertices(Fault fault)
            fault == Fault::closed_corner || fault == Fault::gap;
 }
 
-void require_healthy(const DoctorReport& report)
+std::optional<std::string> refusal(const DoctorReport& report)
 {
     std::string message;
     int shown = 0;
@@ -76,8 +76,15 @@ void require_healthy(const DoctorReport& report)
             message += fmt::format("{}{}; {}", shown > 1 ? "\n" : "", f.text, f.advice);
     if (shown > 3)
         message += fmt::format("\nand {} more", shown - 3);
-    if (shown > 0)
-        throw InputError(message + "\n(faces and vertices are counted from 0)");
+    if (shown == 0)
+        return std::nullopt;
+    return message + "\n(faces and vertices are counted from 0)";
+}
+
+void require_healthy(const DoctorReport& report)
+{
+    if (const auto why = refusal(report))
+        throw InputError(*why);
 }
 
 } // namespace spia

@@ -25,10 +25,9 @@ PartFile two_triangles()
 
 std::vector<std::string> doubts(const MeshTargets& targets)
 {
-    PartFile part = two_triangles();
-    check_targets(targets, part);
-    EXPECT_EQ(part.notes, part.doubts);
-    return part.doubts;
+    const Remarks remarks = on_targets(targets, two_triangles());
+    EXPECT_EQ(remarks.notes, remarks.doubts);
+    return remarks.doubts;
 }
 
 } // namespace
