@@ -9,6 +9,7 @@
 
 #include "engine/core/length_unit.h"
 #include "engine/mesh/doctor/doctor.h"
+#include "engine/mesh/solid/mark_line.h"
 #include "engine/mesh/solid/skin.h"
 #include "engine/mesh/solid/stated_curve.h"
 #include "engine/mesh/solid/stated_surface.h"
@@ -67,13 +68,13 @@ struct SolidOrigin {
     int faces = 0, outer_faces = 0, inner_faces = 0; ///< CAD faces, else faces of the file; all and
                                                      ///< of the skins
     bool open = false;                               ///< faces are missing
-    std::vector<Eigen::Matrix3Xd> marks =
-        {}; ///< outlines of marks that were passed over, mm, on the surface that was taken; a
-            ///< closed one ends where it begins
-    SheetSide side = SheetSide::outer;       ///< the skin whose faces the mesh has
-    std::vector<StatedSurface> surface = {}; ///< per face of the file: the cylinder that was
-                                             ///< measured on it; empty: none was, or a CAD file
-                                             ///< states them
+    std::vector<MarkLine> marks = {};                ///< outlines of marks that were passed over and
+                                                     ///< circles of sunk holes, on the surface that
+                                                     ///< was taken
+    SheetSide side = SheetSide::outer;               ///< the skin whose faces the mesh has
+    std::vector<StatedSurface> surface = {};         ///< per face of the file: the cylinder that was
+                                                     ///< measured on it; empty: none was, or a CAD file
+                                                     ///< states them
 };
 
 /// What a file holds, and what was done to it.

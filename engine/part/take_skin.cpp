@@ -396,9 +396,11 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     if (measured)
         part.solid->surface = of_file_faces(part, surface);
     for (const MarkOutline& outline : plain.outlines)
-        part.solid->marks.push_back(on_surface(outline, laid.kind, sheet.thickness));
-    for (Eigen::Matrix3Xd& row : rows_of(holes, laid.kind, sheet.thickness))
-        part.solid->marks.push_back(std::move(row));
+        part.solid->marks.push_back(
+            {on_surface(outline, laid.kind, sheet.thickness),
+             {.outer = outline.skin == SheetSide::outer, .inner = outline.skin == SheetSide::inner}});
+    for (MarkLine& line : lines_of(holes, laid.kind, sheet.thickness))
+        part.solid->marks.push_back(std::move(line));
     if (laid.kind != Skin::middle)
         add(part, on_wide_holes(holes, laid.mesh.side));
     std::optional<Finding> sunk;

@@ -6,6 +6,7 @@
 
 #include "engine/exchange/lines/blank_outline.h"
 #include "engine/exchange/lines/outline_curves.h"
+#include "engine/mesh/solid/mark_line.h"
 
 namespace spia {
 
@@ -26,12 +27,18 @@ struct DrawnBend {
     double deduction = 0;                 ///< mm, see SheetBend; told with the allowance
 };
 
+/// What is scribed or sunk and not cut, mm in the plane of the blank, whose face is the outer skin
+/// of the sheet.
+struct DrawnMark {
+    Eigen::Matrix2Xd line; ///< two points or more; a closed one ends where it begins
+    MarkLabel label = {};
+};
+
 /// All that is drawn of a blank, mm.
 struct BlankDrawing {
     std::vector<OutlineLoop> loops; ///< the outline, then the holes: blank_outline()
     std::vector<DrawnBend> bends = {};
-    std::vector<Eigen::Matrix2Xd> marks =
-        {}; ///< what is scribed: lines of two points or more; a closed one ends where it begins
+    std::vector<DrawnMark> marks = {};
     std::vector<std::vector<StatedPiece>> stated = {}; ///< per loop what a CAD file says of it;
                                                        ///< empty: nothing of any
     std::string lengths_of = {};                       ///< which surface of the sheet, "neutral

@@ -74,7 +74,7 @@ struct DxfFrame {
 
 namespace dxf_handle {
 constexpr int model_space = 0x20, layer_outline = 0x34, layer_holes = 0x35, layer_bend_up = 0x3a,
-              layer_bend_down = 0x3b, layer_bend_zone = 0x3c, layer_marks = 0x3d,
+              layer_bend_down = 0x3b, layer_bend_zone = 0x3c, layer_marks = 0x3d, layer_marks_text = 0x3e,
               first_entity = 0x100; ///< what stands in every file is below
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numbers>
 #include <span>
 
@@ -30,6 +31,9 @@ std::string ascii(std::string text)
     return text;
 }
 
+/// Of the blank as it is drawn.
+const char* side(const MarkLabel& mark) { return mark.outer && mark.inner ? "both" : mark.outer ? "front" : "back"; }
+
 /// A point of a polyline and the bulge of the way to the next.
 struct Bulged {
     Eigen::Vector2d at;
@@ -45,16 +49,17 @@ public:
     int next_handle() const { return handle_; }
     const Eigen::AlignedBox2d& box() const { return box_; } ///< mm, of all that was drawn but texts
 
-    /// @param bend what it is of; null: nothing
-    void polyline(const char* layer, std::span<const Bulged> points, bool closed, const DrawnBend* bend = nullptr)
+    /// @param about  writes its extended data; none: it has none
+    void polyline(const char* layer, std::span<const Bulged> points, bool closed,
+                  const std::function<void()>& about = {})
     {
         begin(dxf_.r12() ? "POLYLINE" : "LWPOLYLINE", layer);
         if (dxf_.r12())
             dxf_(66, 1).point(10, {0, 0})(30, 0.0)(70, int(closed));
         else
             dxf_(100, "AcDbPolyline")(90, int(points.size()))(70, int(closed));
-        if (dxf_.r12() && bend) // before its vertices, which are entities of their own
-            about(*bend);
+        if (dxf_.r12() && about) // before its vertices, which are entities of their own
+            about();
         for (size_t i = 0; i < points.size(); ++i) {
             const Bulged& point = points[i];
             box_.extend(point.at);
@@ -70,8 +75,8 @@ public:
         }
         if (dxf_.r12())
             dxf_(0, "SEQEND").handle(5, handle_++)(8, layer);
-        else if (bend)
-            about(*bend);
+        else if (about)
+            about();
     }
 
     void circle(const char* layer, const Eigen::Vector2d& centre, double radius)
@@ -133,6 +138,18 @@ public:
             dxf_(1000, "allowance")(1040, bend.allowance / mm_)(1000, "deduction")(1040, bend.deduction / mm_);
         if (thickness_ > 0)
             dxf_(1000, "thickness")(1040, thickness_ / mm_);
+    }
+
+    void about(const MarkLabel& mark)
+    {
+        dxf_(1001, dxf_application)(1000, "mark")(1000, name(mark.kind))(1000, side(mark));
+        const auto tell = [&](const char* what, double value) {
+            if (value > 0)
+                dxf_(1000, what)(1040, value / mm_);
+        };
+        tell("diameter", mark.wide);
+        tell("depth", mark.deep);
+        tell("hole", mark.hole);
     }
 
 private:
@@ -293,7 +310,7 @@ void draw_bend(Entities& draw, const DrawnBend& bend, double height, const DxfOp
             draw.line(layer, line.col(0), line.rightCols<1>());
             draw.about(bend);
         } else
-            draw.polyline(layer, through(line), false, &bend);
+            draw.polyline(layer, through(line), false, [&] { draw.about(bend); });
     }
     if (const Eigen::Matrix2Xd* longest = longest_line(bend)) {
         const std::string text = label(bend, millimetres(options.unit));
@@ -315,15 +332,39 @@ void draw_bend(Entities& draw, const DrawnBend& bend, double height, const DxfOp
             draw.polyline("BEND_ZONE", through(line), false);
 }
 
-/// A row of points, a circle where they lie on one: sunk holes are drilled there.
-void draw_mark(Entities& draw, const Eigen::Matrix2Xd& mark, const DxfOptions& options)
+/// "countersink 12 x 3, back", in the unit of the file
+std::string label(const MarkLabel& mark, double mm)
 {
-    const bool closed = mark.cols() > 3 && mark.col(0) == mark.rightCols<1>();
-    const Eigen::Matrix2Xd points = closed ? mark.leftCols(mark.cols() - 1) : mark;
+    const int decimals = mm > 1 ? 4 : 3;
+    std::string text = name(mark.kind);
+    if (mark.wide > 0)
+        text += " " + few_digits(mark.wide / mm, decimals);
+    if (mark.wide > 0 && mark.deep > 0)
+        text += " x " + few_digits(mark.deep / mm, decimals);
+    return text + ", " + side(mark);
+}
+
+/// A row of points, a circle where they lie on one: sunk holes are drilled there. The text stands
+/// over it.
+void draw_mark(Entities& draw, const DrawnMark& mark, double height, const DxfOptions& options)
+{
+    const Eigen::Matrix2Xd& line = mark.line;
+    const bool closed = line.cols() > 3 && line.col(0) == line.rightCols<1>();
+    const Eigen::Matrix2Xd points = closed ? line.leftCols(line.cols() - 1) : line;
+    OutlineCurves curves;
     if (closed && options.curves != DxfCurves::polylines)
-        if (const OutlineCurves curves = find_curves(points, options.tolerance, options.tolerance, {}); curves.circle)
-            return draw.circle("MARKS", curves.centre, curves.radius);
-    draw.polyline("MARKS", through(points), closed);
+        curves = find_curves(points, options.tolerance, options.tolerance, {});
+    if (curves.circle) {
+        draw.circle("MARKS", curves.centre, curves.radius);
+        draw.about(mark.label);
+    } else
+        draw.polyline("MARKS", through(points), closed, [&] { draw.about(mark.label); });
+    if (mark.label.kind == MarkLabel::Kind::mark)
+        return;
+    const Eigen::Vector2d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
+    draw.text("MARKS_TEXT", label(mark.label, millimetres(options.unit)),
+              {(low[0] + high[0]) / 2, high[1] + 0.4 * height}, height, 0);
+    draw.about(mark.label);
 }
 
 void require_drawn(std::span<const Eigen::Matrix2Xd> lines, const std::string& what)
@@ -336,7 +377,8 @@ void require_drawn(std::span<const Eigen::Matrix2Xd> lines, const std::string& w
 void require_drawing(const BlankDrawing& drawing, const DxfOptions& options)
 {
     require_outline(drawing.loops);
-    require_drawn(drawing.marks, "the marks");
+    for (const DrawnMark& mark : drawing.marks)
+        require_drawn({&mark.line, 1}, "the marks");
     if (!drawing.stated.empty() && drawing.stated.size() != drawing.loops.size())
         throw InputError(fmt::format("there are {} loops of an outline, but curves for {}", drawing.loops.size(),
                                      drawing.stated.size()));
@@ -365,6 +407,9 @@ std::vector<DxfLayer> layers_of(const BlankDrawing& drawing)
         layers.push_back({layer_bend_zone, "BEND_ZONE", 8, "DOT"});
     if (!drawing.marks.empty())
         layers.push_back({layer_marks, "MARKS", 6});
+    if (std::ranges::any_of(drawing.marks,
+                            [](const DrawnMark& mark) { return mark.label.kind != MarkLabel::Kind::mark; }))
+        layers.push_back({layer_marks_text, "MARKS_TEXT", 6});
     return layers;
 }
 
@@ -408,8 +453,8 @@ void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, c
     const double height = text_height(drawing, size, mm);
     for (const DrawnBend& bend : drawing.bends)
         draw_bend(draw, bend, height, options);
-    for (const Eigen::Matrix2Xd& mark : drawing.marks)
-        draw_mark(draw, mark, options);
+    for (const DrawnMark& mark : drawing.marks)
+        draw_mark(draw, mark, height, options);
     DxfText dxf(options.version);
     head(dxf, drawing, options);
     begin_dxf(dxf,

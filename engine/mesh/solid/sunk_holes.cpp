@@ -277,25 +277,35 @@ int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
     return moved;
 }
 
-std::vector<Eigen::Matrix3Xd> rows_of(const std::vector<SunkHole>& holes, Skin surface, double thickness)
+std::vector<MarkLine> lines_of(const std::vector<SunkHole>& holes, Skin surface, double thickness)
 {
     constexpr double same = 1e-3; // of the thickness
-    std::vector<Eigen::Matrix3Xd> rows;
-    for (size_t i = 0; i < holes.size(); ++i) {
-        const SunkHole& hole = holes[i];
+    std::vector<MarkLine> lines;
+    const SunkHole* before = nullptr; // whose circle is the last line
+    for (const SunkHole& hole : holes) {
+        const MarkLabel label{hole.counterbore ? MarkLabel::Kind::counterbore : MarkLabel::Kind::countersink,
+                              hole.skin == SheetSide::outer,
+                              hole.skin == SheetSide::inner,
+                              hole.diameter,
+                              hole.depth,
+                              hole.least};
         for (const MarkOutline& edge : hole.edge)
-            rows.push_back(on_surface(edge, surface, thickness));
-        const auto drawn = [&](const SunkHole& before) {
-            return before.hole == hole.hole && !before.cut_off &&
-                   std::abs(before.diameter - hole.diameter) < same * thickness;
-        };
+            lines.push_back({on_surface(edge, surface, thickness), label});
         // at the skin that is laid flat they are cut
-        if (surface != Skin::middle && (surface == Skin::outer) == (hole.skin == SheetSide::outer))
+        const bool cut = surface != Skin::middle && (surface == Skin::outer) == (hole.skin == SheetSide::outer);
+        if (cut || hole.cut_off)
             continue;
-        if (!hole.cut_off && std::none_of(holes.begin(), holes.begin() + long(i), drawn))
-            rows.push_back(circle_of(hole, surface, thickness));
+        if (before && before->hole == hole.hole && std::abs(before->diameter - hole.diameter) < same * thickness) {
+            MarkLabel& both = lines.back().label;
+            both.outer = both.inner = true;
+            if (before->counterbore != hole.counterbore || std::abs(before->depth - hole.depth) >= same * thickness)
+                both.deep = 0;
+            continue;
+        }
+        lines.push_back({circle_of(hole, surface, thickness), label});
+        before = &hole;
     }
-    return rows;
+    return lines;
 }
 
 } // namespace spia

@@ -2,6 +2,7 @@
 #include <set>
 #include <vector>
 
+#include "engine/mesh/solid/mark_line.h"
 #include "engine/mesh/solid/mark_outlines.h"
 #include "engine/mesh/solid/skin.h"
 #include "engine/mesh/solid/thin_solid.h"
@@ -68,9 +69,8 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
 /// @returns how many vertices were moved
 int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes);
 
-/// The circle at the skin, or what there is of it, as rows of points on a surface of the sheet, 3
-/// by #points, mm. The same one at both skins is one row; on a skin only those at the other one are
-/// rows, for its own are its holes.
-std::vector<Eigen::Matrix3Xd> rows_of(const std::vector<SunkHole>& holes, Skin surface, double thickness);
+/// The circle at the skin, or what there is of it, on a surface of the sheet. The same one at both
+/// skins is one line; on a skin only those at the other one are lines, for its own are its holes.
+std::vector<MarkLine> lines_of(const std::vector<SunkHole>& holes, Skin surface, double thickness);
 
 } // namespace spia

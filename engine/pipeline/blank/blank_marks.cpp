@@ -17,8 +17,10 @@ public:
     {
     }
 
-    void lay(const Eigen::Matrix3Xd& line)
+    void lay(const MarkLine& mark)
     {
+        label_ = mark.label;
+        const Eigen::Matrix3Xd& line = mark.point;
         Eigen::Vector2d from = in_blank(line.col(0));
         row_ = {from};
         for (Eigen::Index k = 0; k + 1 < line.cols(); ++k) {
@@ -28,7 +30,7 @@ public:
         }
         end_row();
     }
-    std::vector<Eigen::Matrix2Xd> rows;
+    std::vector<DrawnMark> marks;
 
 private:
     Eigen::Vector2d in_blank(const Eigen::Vector3d& place) const
@@ -74,7 +76,7 @@ private:
     void end_row()
     {
         if (row_.size() > 1) {
-            Eigen::Matrix2Xd& row = rows.emplace_back(2, Eigen::Index(row_.size()));
+            Eigen::Matrix2Xd& row = marks.emplace_back(Eigen::Matrix2Xd(2, Eigen::Index(row_.size())), label_).line;
             for (size_t k = 0; k < row_.size(); ++k)
                 row.col(Eigen::Index(k)) = row_[k];
         }
@@ -86,18 +88,19 @@ private:
     ClosestPointSearch search_;
     double tolerance_; ///< mm
     std::vector<Eigen::Vector2d> row_;
+    MarkLabel label_;
 };
 
 } // namespace
 
-std::vector<Eigen::Matrix2Xd> marks_on_blank(const PartFile& part, const Blank& blank)
+std::vector<DrawnMark> marks_on_blank(const PartFile& part, const Blank& blank)
 {
     if (!part.solid || part.solid->marks.empty())
         return {};
     Projection projection(part.mesh, blank);
-    for (const Eigen::Matrix3Xd& mark : part.solid->marks)
+    for (const MarkLine& mark : part.solid->marks)
         projection.lay(mark);
-    return std::move(projection.rows);
+    return std::move(projection.marks);
 }
 
 } // namespace spia

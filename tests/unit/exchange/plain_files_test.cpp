@@ -367,7 +367,7 @@ TEST(Dxf, BendLinesHaveTheirLayersAndStayOpen)
     bend.up = false;
     bend.zone.clear();
     drawing.bends.push_back(bend);
-    drawing.marks = {Eigen::Matrix2Xd::Random(2, 5)};
+    drawing.marks = {{Eigen::Matrix2Xd::Random(2, 5)}};
     write_dxf(folder / "x.dxf", drawing, {.unit = LengthUnit::inch, .curves = DxfCurves::polylines});
     const auto pairs = dxf_pairs(content_of(folder / "x.dxf"));
     const auto lines = polylines(pairs);
@@ -382,7 +382,7 @@ TEST(Dxf, BendLinesHaveTheirLayersAndStayOpen)
     EXPECT_EQ(named({0, "LINE"}), 2);
     EXPECT_EQ(named({0, "TEXT"}), 2);
     EXPECT_EQ(named({1, "UP 85.94%%d R0.1181 K0.44"}), 1) << "inch";
-    EXPECT_EQ(named({1001, "SPIA"}), 4) << "of each line and its text";
+    EXPECT_EQ(named({1001, "SPIA"}), 5) << "of each line and its text, and of the mark";
     EXPECT_EQ(named({2, "SPIA"}), 1) << "the application is declared";
     EXPECT_EQ(named({6, "DASHED"}), 2);
     for (size_t i = 0; i + 4 < pairs.size(); ++i)

@@ -406,4 +406,42 @@ TEST(ShopDxf, LabelsHaveOneHeightAndAreReadFromBelowOrFromTheRight)
     EXPECT_GE(height, std::hypot(80, 50) / 121);
 }
 
+TEST(ShopDxf, MarksSayWhatTheyAreAndAtWhichSide)
+{
+    const ScratchFolder folder;
+    const auto closed = [](const OutlineLoop& loop) {
+        Eigen::Matrix2Xd row(2, loop.cols() + 1);
+        row << loop, loop.col(0);
+        return row;
+    };
+    using Kind = MarkLabel::Kind;
+    BlankDrawing drawing{{rounded(80, 60, 5, 8, 1, 0)}};
+    drawing.marks = {{closed(circle(6, 120)), {Kind::countersink, false, true, 12, 3, 6}},
+                     {closed(circle(4, 120)), {Kind::counterbore, true, true, 8, 0, 5}},
+                     {closed(circle(2, 120)), {Kind::mark, true, false}}};
+    for (const DxfVersion version : {DxfVersion::r12, DxfVersion::r2000})
+        for (const DxfCurves curves : {DxfCurves::arcs, DxfCurves::polylines}) {
+            write_dxf(folder / "marks.dxf", drawing, {.version = version, .curves = curves});
+            std::string text = content_of(folder / "marks.dxf");
+            std::erase(text, '\r');
+            const auto has = [&](const std::string& rows) { return text.find(rows) != std::string::npos; };
+            const std::string data = "1001\nSPIA\n1000\nmark\n1000\n";
+            const std::string zeros = ".000000000000000\n1000\n";
+            EXPECT_TRUE(has(data + "countersink\n1000\nback\n1000\ndiameter\n1040\n12" + zeros + "depth\n1040\n3.0"));
+            EXPECT_TRUE(has(data + "counterbore\n1000\nboth\n1000\ndiameter\n1040\n8.0"));
+            EXPECT_TRUE(has("hole\n1040\n6.0"));
+            EXPECT_TRUE(has(data + "mark\n1000\nfront\n")) << text;
+            EXPECT_TRUE(has("\n  1\ncountersink 12 x 3, back\n"));
+            EXPECT_TRUE(has("\n  1\ncounterbore 8, both\n"));
+            EXPECT_FALSE(has("\n  1\nmark"));
+            size_t texts = 0;
+            for (size_t at = 0; (at = text.find("\n  8\nMARKS_TEXT\n", at)) != std::string::npos; ++at)
+                ++texts;
+            EXPECT_EQ(texts, 2u);
+        }
+    drawing.marks.erase(drawing.marks.begin(), drawing.marks.begin() + 2);
+    write_dxf(folder / "marks.dxf", drawing);
+    EXPECT_EQ(content_of(folder / "marks.dxf").find("MARKS_TEXT"), std::string::npos);
+}
+
 } // namespace spia

@@ -211,7 +211,12 @@ TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
             const PartFile part = examined(shapes::divided(plate_with_text(0.3), divisions), skin);
             ASSERT_TRUE(part.solid) << texts_of(part);
             std::vector<double> areas;
-            for (const Eigen::Matrix3Xd& mark : part.solid->marks) {
+            for (const auto& [mark, label] : part.solid->marks) {
+                EXPECT_EQ(label.kind, MarkLabel::Kind::mark);
+                EXPECT_NE(label.outer, label.inner);
+                if (skin != Skin::middle) {
+                    EXPECT_EQ(skin == Skin::outer ? label.outer : label.inner, part.mesh.position(2, 0) == height[0]);
+                }
                 ASSERT_EQ(mark.col(0), mark.rightCols<1>()) << "closed";
                 const double z = skin == Skin::middle ? height[1] : part.mesh.position(2, 0);
                 EXPECT_LT((mark.row(2).array() - z).abs().maxCoeff(), 1e-12);
@@ -231,7 +236,7 @@ TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
     const PartFile part = examined(marked(sheet, solid_of(sheet), box(10, 16, -1, 30), 0.2), Skin::outer);
     ASSERT_TRUE(part.solid);
     ASSERT_EQ(part.solid->marks.size(), 1u);
-    const Eigen::Matrix3Xd& mark = part.solid->marks[0];
+    const Eigen::Matrix3Xd& mark = part.solid->marks[0].point;
     EXPECT_EQ(mark(1, 0), 0);
     EXPECT_EQ(mark(1, mark.cols() - 1), 0);
     double length = 0;

@@ -1,4 +1,5 @@
 // Sinks that a border, another hole or a bend cuts, at either skin: what is cut is the hole below.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -384,7 +385,7 @@ TEST(SunkHoles, ThatAreOpenToABorderAtBothSkinsLeaveItWhereItIs)
             };
             EXPECT_TRUE(said("open at a border")) << fmt::format("{}", fmt::join(part.doubts, "; "));
             EXPECT_FALSE(said("sunk in"));
-            for (const Eigen::Matrix3Xd& mark : part.solid->marks)
+            for (const auto& [mark, label] : part.solid->marks)
                 EXPECT_LT((mark.rowwise().maxCoeff() - mark.rowwise().minCoeff()).norm(), 4 * sink.wide);
             const double open = std::sqrt(sink.wide * sink.wide - sink.centre.y() * sink.centre.y());
             const TriMesh& mesh = part.mesh;

@@ -201,7 +201,7 @@ void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm f
             EXPECT_LT(round.off, same);
             holes.push_back(round.radius);
         }
-    for (const Eigen::Matrix3Xd& mark : part.solid->marks) {
+    for (const auto& [mark, label] : part.solid->marks) {
         const Round round = round_of(mark.leftCols(mark.cols() - 1));
         EXPECT_LT(round.off, same);
         marks.push_back(round.radius);
@@ -275,6 +275,8 @@ TEST(SunkHoles, OfOneHoleAtBothSkinsAreCountedOnce)
             const PartFile part = read_part(file);
             ASSERT_TRUE(part.solid);
             EXPECT_EQ(part.solid->marks.size(), alike ? 1u : 2u);
+            for (const auto& [circle, label] : part.solid->marks)
+                EXPECT_EQ(label.outer && label.inner, alike);
             const Finding* told = part.doctor.find(Fault::mark);
             ASSERT_TRUE(told);
             EXPECT_EQ(told->count, 1);
@@ -576,6 +578,14 @@ TEST(SunkHoles, AtTheSkinThatIsLaidFlatAreDoubtedAndNotMarked)
             };
             EXPECT_EQ(std::ranges::count_if(part.doubts, wide), cut_wide) << int(skin) << left;
             EXPECT_EQ(part.solid->marks.size(), cut_wide ? 0u : 1u) << int(skin) << left;
+            for (const auto& [circle, label] : part.solid->marks) {
+                EXPECT_EQ(label.kind, MarkLabel::Kind::counterbore);
+                EXPECT_EQ(label.inner, left);
+                EXPECT_EQ(label.outer, !left);
+                EXPECT_NEAR(label.wide, 18, 1e-6);
+                EXPECT_NEAR(label.deep, 2, 1e-6);
+                EXPECT_NEAR(label.hole, 5, 1e-6);
+            }
             const auto marked = [](const Finding& finding) {
                 return finding.text.find("circles of the marks show where") != finding.text.npos;
             };
