@@ -214,7 +214,7 @@ std::string either(const ThinSolid& sheet)
 
 /// A surface of a solid of sheet that can be laid flat.
 struct LaidSkin {
-    SkinMesh mesh;
+    SkinMesh skin;
     Skin kind;
     Remarks remarks;
 };
@@ -229,17 +229,17 @@ LaidSkin laid_skin(const TriMesh& solid, const ThinSolid& sheet, const std::vect
         LaidSkin laid{{}, wanted, {}};
         if (wanted == Skin::middle) {
             MiddleSurface middle = middle_surface(solid, sheet, holes, open, units);
-            laid.mesh = std::move(middle.skin);
+            laid.skin = std::move(middle.skin);
             laid.remarks = std::move(middle.remarks);
         } else
-            laid.mesh = skin_of(solid, sheet, wanted, units);
-        if (laid.mesh.straightened > 0)
+            laid.skin = skin_of(solid, sheet, wanted, units);
+        if (laid.skin.straightened > 0)
             laid.remarks.notes.push_back(
                 fmt::format("{} not halfway along an edge that crosses the sheet askew but straight below the {} skin, "
                             "up to half a thickness beside it, for triangles not to turn over",
-                            counted(laid.mesh.straightened, "vertex of the middle surface lies",
+                            counted(laid.skin.straightened, "vertex of the middle surface lies",
                                     "vertices of the middle surface lie"),
-                            of_skin(laid.mesh.side)));
+                            of_skin(laid.skin.side)));
         return laid;
     } catch (const NotASheet& reason) {
         if (asked)
@@ -336,33 +336,73 @@ Remarks on_skin(const PartFile& part, bool uneven_told)
     return remarks;
 }
 
-/// The part with a skin in the place of the solid that it is.
+/// Which of the two it is that a closed surface is taken for, where the file does not say; empty if
+/// it can be a solid of sheet alone.
+Remarks on_either(const ThinSolid& sheet, ClosedSurface closed)
+{
+    Remarks remarks;
+    if (closed == ClosedSurface::perhaps_hollow)
+        remarks.doubt(fmt::format("{}. It is taken as a hollow body; for a solid choose the skin that stands for it "
+                                  "({})",
+                                  either(sheet), mention(option::skin, "middle")));
+    if (closed == ClosedSurface::perhaps_sheet)
+        remarks.doubt(fmt::format("{}. It is taken as a solid; a hollow body is cut open along a seam that you give "
+                                  "({})",
+                                  either(sheet), mention(option::seam, "FILE")));
+    return remarks;
+}
+
+/// @param examined  with its marks
+SolidOrigin origin_of(const PartFile& examined, const PlainPart& plain, const LaidSkin& laid,
+                      const std::vector<SunkHole>& holes)
+{
+    const ThinSolid& sheet = plain.sheet;
+    const auto faces_on = [&](SheetSide side) {
+        return faces(plain.part, [&](size_t f) { return sheet.side[f] == side; });
+    };
+    SolidOrigin origin{laid.kind,
+                       sheet.thickness,
+                       sheet.least,
+                       sheet.most,
+                       sheet.outer,
+                       sheet.inner,
+                       area(laid.skin.mesh),
+                       sheet.rim,
+                       sheet.volume,
+                       faces(examined, [](size_t) { return true; }),
+                       faces_on(SheetSide::outer),
+                       faces_on(SheetSide::inner),
+                       *examined.doctor.boundary_loops > 0,
+                       {},
+                       laid.skin.side};
+    for (const MarkOutline& outline : plain.outlines)
+        origin.marks.push_back(
+            {on_surface(outline, laid.kind, sheet.thickness),
+             {.outer = outline.skin == SheetSide::outer, .inner = outline.skin == SheetSide::inner}});
+    for (MarkLine& line : lines_of(holes, laid.kind, sheet.thickness))
+        origin.marks.push_back(std::move(line));
+    return origin;
+}
+
+/// The part with a skin in the place of the solid that it is; as it was if it is rather a hollow
+/// body.
 /// @throws NotASheet
 PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& options, bool solid,
                    const CornerNormals* normals, const Progress& progress)
 {
-    const bool open = *examined.doctor.boundary_loops > 0;
     PlainPart plain = without_its_marks(examined, normals, progress);
     PartFile& part = plain.part;
     ThinSolid& sheet = plain.sheet;
-    Remarks remarks;
     if (claim == Claim::measured && !solid) {
         const ClosedSurface closed = sheet_or_hollow(sheet);
-        if (closed == ClosedSurface::perhaps_hollow) {
-            remarks.doubt(fmt::format("{}. It is taken as a hollow body; for a solid choose the skin that stands for "
-                                      "it ({})",
-                                      either(sheet), mention(option::skin, "middle")));
-            PartFile hollow = examined;
-            add(hollow, remarks);
-            return hollow;
-        }
-        if (closed == ClosedSurface::perhaps_sheet)
-            remarks.doubt(fmt::format("{}. It is taken as a solid; a hollow body is cut open along a seam that you "
-                                      "give ({})",
-                                      either(sheet), mention(option::seam, "FILE")));
+        const bool hollow = closed == ClosedSurface::perhaps_hollow;
+        if (hollow)
+            part = examined;
+        add(part, on_either(sheet, closed));
+        if (hollow)
+            return std::move(plain.part);
     }
-    add(part, remarks);
-    if (solid && !open && !options.skin)
+    if (solid && *examined.doctor.boundary_loops == 0 && !options.skin)
         add(part, on_block(sheet));
     Surfaces surface = stated_by_cad(part);
     const bool measured = surface.empty();
@@ -374,40 +414,19 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
     const LaidSkin laid = laid_skin(part.mesh, sheet, holes, sinks, options.skin, faces_of(part, normals, surface));
     add(part, laid.remarks);
-    const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.mesh.side, surface);
+    const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.skin.side, surface);
     add(part, uneven);
-    add(part, on_open_sinks(sinks, laid.kind, laid.mesh.side));
-    const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
-    part.solid = {laid.kind,
-                  sheet.thickness,
-                  sheet.least,
-                  sheet.most,
-                  sheet.outer,
-                  sheet.inner,
-                  area(laid.mesh.mesh),
-                  sheet.rim,
-                  sheet.volume,
-                  faces(examined, [](size_t) { return true; }),
-                  faces(part, on(SheetSide::outer)),
-                  faces(part, on(SheetSide::inner)),
-                  open,
-                  {},
-                  laid.mesh.side};
+    add(part, on_open_sinks(sinks, laid.kind, laid.skin.side));
+    part.solid = origin_of(examined, plain, laid, holes);
     if (measured)
         part.solid->surface = of_file_faces(part, surface);
-    for (const MarkOutline& outline : plain.outlines)
-        part.solid->marks.push_back(
-            {on_surface(outline, laid.kind, sheet.thickness),
-             {.outer = outline.skin == SheetSide::outer, .inner = outline.skin == SheetSide::inner}});
-    for (MarkLine& line : lines_of(holes, laid.kind, sheet.thickness))
-        part.solid->marks.push_back(std::move(line));
     if (laid.kind != Skin::middle)
-        add(part, on_wide_holes(holes, laid.mesh.side));
+        add(part, on_wide_holes(holes, laid.skin.side));
     std::optional<Finding> sunk;
     if (!holes.empty())
-        sunk = finding_of(holes, laid.kind, laid.mesh.side, sheet.thickness, part.source_face);
+        sunk = finding_of(holes, laid.kind, laid.skin.side, sheet.thickness, part.source_face);
     part.thickness_mm = sheet.thickness;
-    replace_mesh(part, laid.mesh);
+    replace_mesh(part, laid.skin);
     add(part, on_skin(part, !uneven.doubts.empty()));
     for (std::optional<Finding>* each : {&plain.marks, &sunk})
         if (*each)
