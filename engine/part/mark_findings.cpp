@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/core/text.h"
 
@@ -79,12 +82,28 @@ std::string laid_flat(const std::vector<SunkHole>& holes, int count, Skin taken,
 {
     if (taken != Skin::middle)
         return fmt::format("the diameters at the {} skin", name(taken));
-    const int wider = int(wider_in_middle(holes, side, thickness).size());
+    std::set<int> in_bends;
+    for (const SunkHole& hole : holes)
+        if (hole.diameter == 0)
+            in_bends.insert(hole.hole);
+    const int wider = int(wider_in_middle(holes, side, thickness).size()), bent = int(in_bends.size()),
+              crossed = wider - bent;
     if (wider == 0)
         return "the least diameter of each";
-    const std::string edges = wider == 1 ? "the edge where the wall crosses the middle of the sheet"
-                                         : "the edges where the walls cross the middle of the sheet";
-    return wider == count ? edges : fmt::format("the least diameter of {}, of {} {}", count - wider, wider, edges);
+    std::vector<std::pair<int, std::string>> kinds;
+    if (count > wider)
+        kinds.emplace_back(count - wider, "the least diameter");
+    if (crossed > 0)
+        kinds.emplace_back(crossed, crossed == 1 ? "the edge where the wall crosses the middle of the sheet"
+                                                 : "the edges where the walls cross the middle of the sheet");
+    if (bent > 0)
+        kinds.emplace_back(bent, fmt::format("the {} at the {} skin", bent == 1 ? "edge" : "edges", of_skin(side)));
+    if (kinds.size() == 1)
+        return kinds.front().second;
+    std::vector<std::string> texts;
+    for (const auto& [number, what] : kinds)
+        texts.push_back(fmt::format("of {} {}", number, what));
+    return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 /// "up to 0.2 mm deep and up to 0.1 mm high"

@@ -379,6 +379,11 @@ TEST(SunkHoles, InABendAreToldAndDoubted)
         ASSERT_EQ(part.doubts.size(), 1u);
         EXPECT_NE(part.doubts[0].find("1 hole is sunk in a bend"), std::string::npos) << part.doubts[0];
         EXPECT_EQ(told->text.find("least diameter"), std::string::npos) << told->text << " but " << part.doubts[0];
+        const auto skin_named = [](const std::string& text) {
+            const size_t at = text.find(" at the ", text.find("edge"));
+            return at == text.npos ? "none in " + text : text.substr(at, text.find(" skin", at) - at);
+        };
+        EXPECT_EQ(skin_named(told->text), skin_named(part.doubts[0]));
     }
 }
 
