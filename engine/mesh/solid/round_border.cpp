@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -92,7 +93,8 @@ class Border {
 public:
     Border(SkinMesh& middle, TriMesh& outer, const TriMesh& solid, const ThinSolid& sheet,
            const std::vector<StatedSurface>& surface, const std::vector<int>& done)
-        : middle_(middle), outer_(outer), half_(sheet.thickness / 2), surface_(surface)
+        : middle_(middle), outer_(outer), half_(sheet.thickness / 2), surface_(surface),
+          neighbour_(face_neighbours(outer.triangles(), edge_uses(outer.triangle)))
     {
         find_border(solid, sheet, done);
         facing_ = area_vectors(outer);
@@ -175,6 +177,7 @@ private:
     const std::vector<StatedSurface>& surface_;
     std::map<std::pair<int, int>, int> rim_; ///< per edge of the outer skin, vertices of the solid:
                                              ///< the triangle across
+    Eigen::Matrix3Xi neighbour_;
     Eigen::Matrix3Xd facing_;
     std::vector<Eigen::Vector3d> new_outer_, new_middle_;
     std::vector<int> new_source_;
@@ -204,6 +207,8 @@ private:
     /// The triangle of the solid across the edge; -1: it is none of the border.
     int rim_at(int f, int k) const
     {
+        if (neighbour_(k, f) >= 0) // its ends may be called by two of the border
+            return -1;
         const int a = middle_.source_vertex[size_t(outer_.triangle(k, f))],
                   b = middle_.source_vertex[size_t(outer_.triangle((k + 1) % 3, f))];
         const auto found = rim_.find({std::min(a, b), std::max(a, b)});
@@ -336,12 +341,28 @@ private:
     }
 };
 
+/// The outer skin below a middle surface. What has been added to that is on no vertex of the solid,
+/// and lies as far outside as the sheet is thick.
+TriMesh outer_below(const SkinMesh& middle, const TriMesh& solid, double thickness)
+{
+    TriMesh outer{solid.position(Eigen::all, middle.source_vertex), middle.mesh.triangle};
+    const Eigen::Matrix3Xd facing = area_vectors(middle.mesh);
+    Eigen::Matrix3Xd outwards = Eigen::Matrix3Xd::Zero(3, outer.vertices());
+    for (int f = 0; f < outer.triangles(); ++f)
+        for (const int v : outer.triangle.col(f))
+            outwards.col(v) += facing.col(f);
+    for (int v = 1; v < outer.vertices(); ++v)
+        if (middle.source_vertex[size_t(v)] == middle.source_vertex[size_t(v - 1)]) // called by it
+            outer.position.col(v) = middle.mesh.position.col(v) + thickness / 2 * outwards.col(v).normalized();
+    return outer;
+}
+
 } // namespace
 
 int round_border(SkinMesh& middle, const TriMesh& solid, const ThinSolid& sheet,
                  const std::vector<StatedSurface>& surface, const std::vector<int>& done)
 {
-    TriMesh outer{solid.position(Eigen::all, middle.source_vertex), middle.mesh.triangle};
+    TriMesh outer = outer_below(middle, solid, sheet.thickness);
     Border border(middle, outer, solid, sheet, surface, done);
     border.place_vertices();
     return border.divide_chords();

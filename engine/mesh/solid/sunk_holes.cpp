@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/edge_graph.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/solid/cut_off_holes.h"
+#include "engine/mesh/solid/move_in_flats.h"
 #include "engine/mesh/solid/round_edge.h"
 #include "engine/mesh/solid/round_holes.h"
 #include "engine/mesh/topology.h"
@@ -261,20 +263,20 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
 int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
 {
     constexpr double rounding = 1e-12;
-    int moved = 0;
+    const std::vector<char> on_rim = edge_graph(middle.mesh).on_rim; // others may be called by one there
+    std::vector<FlatMove> moves;
     for (const SunkHole& hole : holes)
         for (int v = 0; v < middle.mesh.vertices() && hole.least > 0; ++v) {
-            if (!std::binary_search(hole.outer.begin(), hole.outer.end(), middle.source_vertex[size_t(v)]))
+            if (!on_rim[size_t(v)] ||
+                !std::binary_search(hole.outer.begin(), hole.outer.end(), middle.source_vertex[size_t(v)]))
                 continue;
-            auto place = middle.mesh.position.col(v);
-            const Eigen::Vector3d way = place - hole.centre, out = way - way.dot(hole.inwards) * hole.inwards;
+            const Eigen::Vector3d place = middle.mesh.position.col(v), way = place - hole.centre,
+                                  out = way - way.dot(hole.inwards) * hole.inwards;
             const double share = hole.least / 2 / out.norm() - 1;
-            if (std::abs(share) <= rounding)
-                continue;
-            place += share * out;
-            ++moved;
+            if (std::abs(share) > rounding)
+                moves.push_back({v, place + share * out, hole.inwards});
         }
-    return moved;
+    return int(move_in_flats(middle, moves).size());
 }
 
 std::vector<MarkLine> lines_of(const std::vector<SunkHole>& holes, Skin surface, double thickness)

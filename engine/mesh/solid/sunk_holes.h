@@ -66,7 +66,7 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
 
 /// Gives round holes of a middle surface their least diameter, as they are cut before they are
 /// sunk.
-/// @returns how many vertices were moved
+/// @returns how many of their vertices stay where they were, for triangles not to turn over
 int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes);
 
 /// The circle at the skin, or what there is of it, on a surface of the sheet. The same one at both
