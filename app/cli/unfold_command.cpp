@@ -15,6 +15,7 @@
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
@@ -108,9 +109,9 @@ void print_states(const UnfoldRun& run, const TriMesh& part, double diagonal)
         if (state.friction_share < 1)
             say("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
         if (state.overlap.places > 0)
-            say("          lies on itself at {}, {} of them laid so by this step, first at {:.6g}, {:.6g}, {:.6g} mm\n",
-                counted(state.overlap.places, "place", "places"), state.overlap.landed, state.overlap.first[0],
-                state.overlap.first[1], state.overlap.first[2]);
+            say("          lies on itself at {}, {} of them laid so by this step, first at {} mm\n",
+                counted(state.overlap.places, "place", "places"), state.overlap.landed,
+                place_text(state.overlap.first));
     }
     if (!run.blank)
         return;

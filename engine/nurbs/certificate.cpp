@@ -8,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/core/place_text.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/bezier.h"
 #include "engine/nurbs/evaluate.h"
@@ -362,8 +363,7 @@ std::string describe(const Refusal& refusal)
                        : refusal.why == Refusal::Why::vanishes ? "has no normal"
                                                                : "turns by 90 degrees or more over a kink";
     const Eigen::Vector3d& at = refusal.place.position;
-    return fmt::format("{} at u = {:.4g}, v = {:.4g} ({:.6g}, {:.6g}, {:.6g} mm)", what, refusal.place.u,
-                       refusal.place.v, at.x(), at.y(), at.z());
+    return fmt::format("{} at u = {:.4g}, v = {:.4g} ({} mm)", what, refusal.place.u, refusal.place.v, place_text(at));
 }
 
 } // namespace spia

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/place_text.h"
 #include "engine/core/text.h"
 
 namespace spia {
@@ -27,14 +28,9 @@ Finding note_on(const std::vector<MarkedPlace>& marked, const std::string& text)
     for (const MarkedPlace& each : marked)
         where.add(each.face);
     const Eigen::Vector3d& first = marked.front().place;
-    Finding finding{Fault::mark,
-                    Severity::note,
-                    where.count,
-                    where.first,
-                    fmt::format("{} at {:.6g}, {:.6g}, {:.6g} mm", text, first.x(), first.y(), first.z()),
-                    "",
-                    where.where,
-                    {}};
+    Finding finding{
+        Fault::mark, Severity::note, where.count, where.first, fmt::format("{} at {} mm", text, place_text(first)),
+        "",          where.where,    {}};
     for (size_t i = 0; i < finding.where.size(); ++i) {
         finding.place.push_back(marked[i].place);
         finding.what.push_back(marked[i].what);

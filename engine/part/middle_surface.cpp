@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <string>
 
+#include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/mesh/solid/holes_over_bends.h"
 #include "engine/mesh/solid/onto_surfaces.h"
@@ -30,11 +31,11 @@ std::string counted_open(const std::vector<OpenSink>& sinks)
                countersinks = std::ranges::none_of(sinks, &OpenSink::counterbore);
     const int count = int(sinks.size());
     const Eigen::Vector3d& place = sinks.front().place;
-    return fmt::format("{} open at a border, a bend or another hole, {}at {:.6g}, {:.6g}, {:.6g} mm",
+    return fmt::format("{} open at a border, a bend or another hole, {}at {} mm",
                        countersinks   ? counted(count, "countersink is", "countersinks are")
                        : counterbores ? counted(count, "counterbore is", "counterbores are")
                                       : counted(count, "sink is", "countersinks and counterbores are"),
-                       count > 1 ? "the first " : "", place.x(), place.y(), place.z());
+                       count > 1 ? "the first " : "", place_text(place));
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/remesh/border_clearance.h"
 #include "engine/remesh/evolving_mesh.h"
 
@@ -113,9 +114,9 @@ void split_long(Work& work, double most_edges, const Progress& progress)
                 return;
             if (double(mesh.mesh().n_edges()) > most_edges) {
                 const Vector at = mesh.at(mesh.ends(edge).first);
-                throw InputError(fmt::format(
-                    "remeshing would cut the needles near {:.6g}, {:.6g}, {:.6g} mm into more than {:.2g} million edges",
-                    at.x(), at.y(), at.z(), most_edges / 1e6));
+                throw InputError(
+                    fmt::format("remeshing would cut the needles near {} mm into more than {:.2g} million edges",
+                                place_text(at), most_edges / 1e6));
             }
             again = mesh.split(edge) || again;
         });

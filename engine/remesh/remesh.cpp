@@ -11,6 +11,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/core/place_text.h"
 #include "engine/mesh/cut/cut.h"
 #include "engine/mesh/topology.h"
 #include "engine/remesh/edge_sizes.h"
@@ -110,10 +111,7 @@ struct Fault {
                              ///< empty: none would
 };
 
-std::string describe_place(const Eigen::Vector3d& p)
-{
-    return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", p.x(), p.y(), p.z());
-}
+std::string describe_place(const Eigen::Vector3d& p) { return place_text(p) + " mm"; }
 
 /// Faces of the part that look against those around them, as where its surface folds back within a
 /// tight bend: new faces are not to do so.

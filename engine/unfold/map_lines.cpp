@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/locate.h"
@@ -158,8 +159,8 @@ private:
     {
         const ClosestPoint place = search_.nearest(p);
         if (place.distance > within_)
-            throw InputError(fmt::format("the line \"{}\" is {:.3g} mm beside the part at {:.6g}, {:.6g}, {:.6g}",
-                                         line.name, place.distance, p[0], p[1], p[2]));
+            throw InputError(fmt::format("the line \"{}\" is {:.3g} mm beside the part at {}", line.name,
+                                         place.distance, place_text(p)));
         const Eigen::Vector2d q = flat_(Eigen::all, part_.triangle.col(place.face)) * place.barycentric;
         return {q[0], q[1], 0};
     }

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/doctor/doctor.h"
@@ -60,9 +61,9 @@ void report_gaps(const CadContent& cad, std::vector<Finding>& findings)
         finding.what.push_back(fmt::format("{:.3g} mm, CAD faces {} and {}", gap->width, gap->face[0], gap->face[1]));
     }
     finding.first = finding.where.front();
-    finding.text = fmt::format("{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g} between CAD faces {} and {}",
+    finding.text = fmt::format("{} closed, the widest {:.3g} mm at {} between CAD faces {} and {}",
                                counted(count, "gap between CAD faces was", "gaps between CAD faces were"), widest.width,
-                               widest.place.x(), widest.place.y(), widest.place.z(), widest.face[0], widest.face[1]);
+                               place_text(widest.place), widest.face[0], widest.face[1]);
     findings.push_back(std::move(finding));
 }
 
@@ -133,9 +134,9 @@ void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
     }
     finding.first = finding.where.empty() ? -1 : finding.where.front();
     finding.text =
-        fmt::format("{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g}: CAD face {}",
+        fmt::format("{} closed, the widest {:.3g} mm at {}: CAD face {}",
                     counted(cad.slivers.size(), "sliver among the CAD faces was", "slivers among the CAD faces were"),
-                    widest.width, widest.place.x(), widest.place.y(), widest.place.z(), widest.face);
+                    widest.width, place_text(widest.place), widest.face);
     findings.push_back(std::move(finding));
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/trim.h"
@@ -75,10 +76,10 @@ CurveFitResult in_space(const NurbsSurface& surface, const PlaneCurve& curve)
         const Eigen::Vector2d uv = evaluate(curve, 0);
         const Eigen::Vector3d place = evaluate(surface, uv.x(), uv.y()).position;
         throw ExchangeError(fmt::format(
-            "no IGES file is written: the border of the hole at {:.6g}, {:.6g}, {:.6g} mm comes no nearer than "
+            "no IGES file is written: the border of the hole at {} mm comes no nearer than "
             "{:.2g} mm to a smooth curve, for the surface folds there; fit it within a tolerance, or choose "
             "other formats",
-            place.x(), place.y(), place.z(), fitted.largest));
+            place_text(place), fitted.largest));
     }
     return fitted;
 }

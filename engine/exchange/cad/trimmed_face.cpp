@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/exchange/cad/occt_step.h"
 #include "engine/exchange/cad/occt_surface.h"
 #include "engine/nurbs/basis.h"
@@ -46,9 +47,9 @@ ExchangeError refused(const char* why, const NurbsSurface& surface, const TrimLo
 {
     const Eigen::Vector2d uv = loop.front().control.col(0);
     const Eigen::Vector3d at = evaluate(surface, uv.x(), uv.y()).position;
-    return ExchangeError(fmt::format("OpenCASCADE {} of the hole at {:.6g}, {:.6g}, {:.6g} mm; write the surface with "
+    return ExchangeError(fmt::format("OpenCASCADE {} of the hole at {} mm; write the surface with "
                                      "its holes filled",
-                                     why, at.x(), at.y(), at.z()));
+                                     why, place_text(at)));
 }
 
 TopoDS_Wire wire_of(const TrimLoop& loop, const NurbsSurface& surface, const Handle(Geom_BSplineSurface) & geometry)

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/exchange/cad/occt_iges.h"
 #include "engine/exchange/cad/occt_step.h"
 #include "engine/exchange/cad/occt_surface.h"
@@ -144,10 +145,8 @@ void require_lines(std::span<const SheetLine> lines)
         const std::vector<double> at = arc(run(line));
         for (size_t k = 1; k < at.size(); ++k)
             if (!(at[k] > at[k - 1]))
-                throw InputError(
-                    fmt::format("the line \"{}\" has two running points at one place: {:.6g}, {:.6g}, {:.6g} mm",
-                                line.name, line.point(0, Eigen::Index(k - 1)), line.point(1, Eigen::Index(k - 1)),
-                                line.point(2, Eigen::Index(k - 1))));
+                throw InputError(fmt::format("the line \"{}\" has two running points at one place: {} mm", line.name,
+                                             place_text(line.point.col(Eigen::Index(k - 1)))));
     }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -32,9 +33,9 @@ LineOnPart::LineOnPart(const TriMesh& part, double spacing)
 ClosestPoint LineOnPart::within(const std::string& what, const Eigen::Vector3d& point, double reach) const
 {
     const auto refuse = [&](double distance) {
-        throw InputError(fmt::format(
-            "{}: the place ({:.6g}, {:.6g}, {:.6g}) is {:.3g} mm off the part; it must lie on it (places are in mm)",
-            what, point[0], point[1], point[2], distance));
+        throw InputError(
+            fmt::format("{}: the place ({}) is {:.3g} mm off the part; it must lie on it (places are in mm)", what,
+                        place_text(point), distance));
     };
     if (!point.allFinite())
         refuse(std::numeric_limits<double>::infinity());

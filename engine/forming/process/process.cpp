@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/place_text.h"
 #include "engine/forming/process/contact_pressure.h"
 #include "engine/forming/process/held_edges.h"
 #include "engine/forming/process/line_on_part.h"
@@ -81,9 +82,8 @@ void add_drawbead(const Drawbead& bead, const TriMesh& part, const LineOnPart& l
         const Eigen::Vector3d normal = area_vector.col(place.on_part.face).normalized();
         const Eigen::Vector3d across = normal.cross(place.along);
         if (!(across.norm() > 0.1))
-            throw InputError(fmt::format("{} leaves the sheet near {:.6g}, {:.6g}, {:.6g} mm; it must run along it",
-                                         what, place.on_part.position[0], place.on_part.position[1],
-                                         place.on_part.position[2]));
+            throw InputError(fmt::format("{} leaves the sheet near {} mm; it must run along it", what,
+                                         place_text(place.on_part.position)));
         for (int a = 0; a < 3; ++a)
             sum.add(part.triangle(a, place.on_part.face),
                     place.on_part.barycentric[a] * bead.force_N_mm * place.length * across.normalized());

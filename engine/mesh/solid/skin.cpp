@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/core/place_text.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/solid/flip_folds.h"
 #include "engine/mesh/topology.h"
@@ -339,9 +340,9 @@ void require_unfolded(const TriMesh& before, const SkinMesh& middle, const ThinS
     const int face = middle.source_face[size_t(worst)];
     const Eigen::Vector3d place = before.position.col(before.triangle(0, worst));
     throw NotASheet(fmt::format("its middle surface folds over where the outer skin is bent more tightly than half the "
-                                "thickness ({} at {:.6g}, {:.6g}, {:.6g} mm); take the outer or the inner skin",
-                                options.face_name ? options.face_name(face) : fmt::format("face {}", face), place.x(),
-                                place.y(), place.z()),
+                                "thickness ({} at {} mm); take the outer or the inner skin",
+                                options.face_name ? options.face_name(face) : fmt::format("face {}", face),
+                                place_text(place)),
                     face, place);
 }
 

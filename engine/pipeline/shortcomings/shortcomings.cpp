@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/forming/material/membrane_law.h"
 #include "engine/pipeline/applied_process.h"
@@ -180,9 +181,9 @@ std::vector<std::string> shortcomings(const Session& session)
     if (session.surface)
         for (const HoleLeftFilled& hole : session.surface->trim.left_filled) {
             const Eigen::Vector3d at = session.part->mesh.position.col(hole.vertex);
-            list.push_back(fmt::format("the hole near ({:.6g}, {:.6g}, {:.6g}) stays filled in the surface: {}; a "
+            list.push_back(fmt::format("the hole near ({}) stays filled in the surface: {}; a "
                                        "smaller tolerance or other corners may help",
-                                       at.x(), at.y(), at.z(), hole.why));
+                                       place_text(at), hole.why));
         }
     if (by_deformation)
         list.push_back(fmt::format("the deformation makes the surface fold: {}; move its points less",

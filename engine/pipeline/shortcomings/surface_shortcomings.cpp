@@ -1,9 +1,9 @@
 #include "engine/pipeline/shortcomings/surface_shortcomings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 
+#include "engine/core/place_text.h"
 #include "engine/options/surface_options.h"
 #include "engine/pipeline/shortcomings/unsuited_surface.h"
 #include "engine/pipeline/usual_tolerance.h"
@@ -17,9 +17,6 @@ bool at_a_corner(const Refusal& refusal)
     const auto end = [](double parameter) { return parameter == 0 || parameter == 1; };
     return refusal.why == Refusal::Why::vanishes && end(refusal.place.u) && end(refusal.place.v);
 }
-
-/// A coordinate without what rounding leaves of zero, mm.
-double tidy(double x) { return std::round(x * 1e4) / 1e4 + 0.; }
 
 /// In percent, of which little is not nothing and most is not all.
 std::string percent(double share)
@@ -42,11 +39,10 @@ std::optional<std::string> far_surface(const Session& session)
                                            ? deviation.surface_to_mesh
                                            : deviation.mesh_to_surface;
     return fmt::format(
-        "the surface is up to {:.3g} mm from the part, near ({:.6g}, {:.6g}, {:.6g}), on {} of its area by more than the "
+        "the surface is up to {:.3g} mm from the part, near ({}), on {} of its area by more than the "
         "usual tolerance of {:.3g} mm: ask for a tolerance of the surface ({}), for patches ({}), or for more cells ({})",
-        deviation.max(), tidy(worse.where.x()), tidy(worse.where.y()), tidy(worse.where.z()),
-        percent(1 - deviation.within()), usual_tolerance, mention(option::tolerance), mention(option::patches, "auto"),
-        mention(option::grid));
+        deviation.max(), place_text(worse.where), percent(1 - deviation.within()), usual_tolerance,
+        mention(option::tolerance), mention(option::patches, "auto"), mention(option::grid));
 }
 
 std::optional<std::string> folded_surface(const Session& session)

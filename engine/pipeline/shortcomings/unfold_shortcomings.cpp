@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/mesh/doctor/doctor.h"
 
@@ -41,9 +42,8 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, con
         if (const LandedOverlap& over = run.states[k].overlap; over.landed > 0)
             poorer.push_back(fmt::format(
                 "step \"{}\" makes the sheet overlap itself at {}, so that it may be impossible; the first is near "
-                "{:.6g}, {:.6g}, {:.6g} mm",
-                run.states[k].name, counted(over.landed, "place", "places"), over.first[0], over.first[1],
-                over.first[2]));
+                "{} mm",
+                run.states[k].name, counted(over.landed, "place", "places"), place_text(over.first)));
     if (!run.states.empty() && run.states.back().overlap.places > 0)
         poorer.push_back(fmt::format("{} overlaps itself at {}", run.blank ? "the blank" : "the last state",
                                      counted(run.states.back().overlap.places, "place", "places")));
