@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -195,6 +196,24 @@ private:
             place = start(v) + nearest * (place - start(v));
     }
 
+    /// Where the middle surface ends at a wall that begins behind a chamfer.
+    /// @returns the way out of the sheet, unit, and how far that is, mm; nothing where it ends at
+    /// the wall that the vertex is at
+    std::optional<std::pair<Eigen::RowVector3d, double>> beyond_chamfer(size_t v) const
+    {
+        constexpr double square = 0.02, least = 1e-3, most = 0.9; // sine of 1 degree; of the thickness;
+                                                                  // of the way along the chamfer
+        const Eigen::Vector3d wall = wall_.col(middle_.source_vertex[v]).normalized(), &out = around_[v].out;
+        const double lean = wall.dot(out), flat = std::sqrt(1 - lean * lean);
+        if (lean < square || flat < square)
+            return std::nullopt;
+        const Eigen::Vector3d way = (wall - lean * out) / flat;
+        const double far = way.dot(middle_.mesh.position.col(Eigen::Index(v)) - start(v));
+        if (far < least * sheet_.thickness || far > most * sheet_.thickness / 2 * lean / flat)
+            return std::nullopt;
+        return std::pair(Eigen::RowVector3d(way.transpose()), far);
+    }
+
     /// Half a thickness inwards, along the wall, and in the plane through the axis.
     /// @returns whether it was put there
     bool onto_end(size_t v)
@@ -210,7 +229,12 @@ private:
                                       // along the end
         if (std::abs(planes.determinant()) < alike)
             return false;
-        const Eigen::Vector3d move = planes.inverse() * Eigen::Vector3d(-sheet_.thickness / 2, 0, 0);
+        Eigen::Vector3d across = Eigen::Vector3d(-sheet_.thickness / 2, 0, 0);
+        if (const auto beyond = beyond_chamfer(v)) {
+            planes.row(1) = beyond->first;
+            across[1] = beyond->second;
+        }
+        const Eigen::Vector3d move = planes.inverse() * across;
         constexpr double most = 1.5; // thicknesses, as there
         if (move.norm() > most * sheet_.thickness)
             return false;

@@ -43,22 +43,39 @@ std::optional<double> agreed(const std::vector<double>& sorted)
     return std::nullopt;
 }
 
-/// Vertices at which a skin turns: they lie on its surface, while those within a chord of a bend
-/// lie below it.
-std::vector<char> turning_vertices(const SolidInPieces& solid)
+/// How a skin lies at a vertex.
+struct SkinAt {
+    Eigen::Vector3d first = Eigen::Vector3d::Zero(); ///< unit normal of one of its faces
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< about which it turns most, the sine of by
+                                                     ///< how much; 0 if by less than a degree
+
+    /// It lies on the skin's surface, while those within a chord of a bend lie below it.
+    bool turns() const { return axis != Eigen::Vector3d::Zero(); }
+
+    /// Whether a way goes straight through the sheet: from beside a chamfer the nearest place of the
+    /// other skin is its border, askew.
+    bool straight(const Eigen::Vector3d& way) const
+    {
+        constexpr double askew = 0.02; // sine of 1.1 degrees
+        return (turns() ? std::abs(way.dot(axis.normalized())) : way.cross(first).norm()) <= askew * way.norm();
+    }
+};
+
+std::vector<SkinAt> skin_at_vertices(const SolidInPieces& solid)
 {
-    constexpr double turn = 0.99985; // 1 degree
-    std::vector<int> first(size_t(solid.mesh.vertices()), -1);
-    std::vector<char> turns(size_t(solid.mesh.vertices()), 0);
+    constexpr double turn = 0.0175; // sine of 1 degree
+    std::vector<SkinAt> at(size_t(solid.mesh.vertices()));
     for (int f = 0; f < solid.mesh.triangles(); ++f)
         for (int k = 0; k < 3 && solid.side(f) != PieceSide::rim; ++k) {
-            const auto v = size_t(solid.mesh.triangle(k, f));
-            if (first[v] < 0)
-                first[v] = f;
-            const auto n = solid.normal.col(first[v]), m = solid.normal.col(f);
-            turns[v] |= m.dot(n) < turn * m.norm() * n.norm();
+            SkinAt& here = at[size_t(solid.mesh.triangle(k, f))];
+            const Eigen::Vector3d normal = solid.normal.col(f).normalized();
+            if (here.first == Eigen::Vector3d::Zero())
+                here.first = normal;
+            const Eigen::Vector3d axis = here.first.cross(normal);
+            if (axis.norm() > std::max(turn, here.axis.norm()))
+                here.axis = axis;
         }
-    return turns;
+    return at;
 }
 
 /// Vertices at which the border of a skin turns, as at both ends of a free edge; where a section is
@@ -96,7 +113,8 @@ double between_vertices(const SolidInPieces& solid, double by_rays, const std::v
     constexpr double nearer = 0.02, farther = 0.1; // chords of 50 degrees are nearer to each other
                                                    // by that
     std::vector<double> distance, turning, ends;
-    const std::vector<char> turns = turning_vertices(solid), corners = border_corners(solid);
+    const std::vector<SkinAt> skin = skin_at_vertices(solid);
+    const std::vector<char> corners = border_corners(solid);
     int asked = 0;
     for (const PieceSide side : {PieceSide::one, PieceSide::other}) {
         const ClosestPointSearch opposite(only(solid, side == PieceSide::one ? PieceSide::other : PieceSide::one));
@@ -109,10 +127,11 @@ double between_vertices(const SolidInPieces& solid, double by_rays, const std::v
                 ++asked;
                 const ClosestPoint near = opposite.nearest(solid.mesh.position.col(v), 2 * by_rays);
                 if (near.face < 0 || near.barycentric.maxCoeff() <= 1 - exact ||
-                    near.distance < (1 - nearer) * by_rays || near.distance > (1 + farther) * by_rays)
+                    near.distance < (1 - nearer) * by_rays || near.distance > (1 + farther) * by_rays ||
+                    !skin[size_t(v)].straight(near.position - solid.mesh.position.col(v)))
                     continue;
                 distance.push_back(near.distance);
-                if (turns[size_t(v)])
+                if (skin[size_t(v)].turns())
                     turning.push_back(near.distance);
                 else if (corners[size_t(v)])
                     ends.push_back(near.distance);

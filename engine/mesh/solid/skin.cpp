@@ -157,16 +157,23 @@ struct MiddleSurface {
             planes.add(told ? told->outwards : mean, told ? -told->distance / 2 : -half);
         constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it
                                         // gives no direction
-        bool at_rim = false;
-        for (const int f : others)
-            if (to_rim && sheet.side[size_t(f)] == SheetSide::rim && std::abs(normal.col(f).dot(mean)) < slanted) {
+        bool at_rim = false, rounded = false;
+        for (const int f : others) {
+            if (!to_rim || sheet.side[size_t(f)] != SheetSide::rim)
+                continue;
+            if (std::abs(normal.col(f).dot(mean)) < slanted) {
                 planes.add(normal_of(f), 0);
                 at_rim = true;
-            }
+            } else
+                rounded = true;
+        }
         const Eigen::Vector3d moved = planes.move(!sharp);
         if (at_rim && !sharp)
             if (const auto along = along_border(v, moved, mean, others))
                 return *along;
+        if (rounded && !sharp)
+            if (const auto place = beyond_chamfer(v, mean, others))
+                return *place;
         if (at_rim && nearest_rim->nearest(solid.position.col(v) + moved, beside * sheet.thickness).face < 0)
             if (const auto place = beyond_chamfer(v, mean, others))
                 return *place;
@@ -239,11 +246,21 @@ struct MiddleSurface {
         const double half = sheet.thickness / 2;
         Planes planes;
         planes.add(mean, -half);
+        std::vector<Eigen::Vector3d> ways; // out of the sheet
+        constexpr double level = 0.01;     // sine of 0.6 degrees; roundings begin with more
         for (const int f : others) {
             const Eigen::Vector3d own = normal.col(f), out = own - own.dot(mean) * mean;
-            if (sheet.side[size_t(f)] != SheetSide::rim || out.norm() < beside)
-                continue;
-            const Eigen::Vector3d outside = here - half * mean + half * out.normalized();
+            if (sheet.side[size_t(f)] == SheetSide::rim && out.norm() >= level)
+                ways.push_back(out.normalized());
+        }
+        for (const Eigen::Vector3d& out : ways) {
+            // At a corner of the border both walls would be as near: a little beside it one is.
+            constexpr double another = 0.7, little = 0.05;
+            Eigen::Vector3d inside = Eigen::Vector3d::Zero();
+            for (const Eigen::Vector3d& other : ways)
+                if (other.dot(out) < another)
+                    inside = -little * half * (other - other.dot(out) * out).normalized();
+            const Eigen::Vector3d outside = here - half * mean + half * out + inside;
             const ClosestPoint wall = nearest_rim->nearest(outside, sheet.thickness);
             if (wall.face < 0)
                 return std::nullopt;

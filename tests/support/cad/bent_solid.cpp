@@ -1,5 +1,6 @@
 #include "tests/support/cad/bent_solid.h"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -8,13 +9,18 @@
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepFilletAPI_MakeChamfer.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <Eigen/Core>
 #include <GC_MakeArcOfCircle.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
@@ -264,11 +270,42 @@ TopoDS_Shape stamped(const TopoDS_Shape& shape, const BentSolid& solid, const Pr
     return stamp.depth > 0 ? BRepAlgoAPI_Cut(shape, mark).Shape() : BRepAlgoAPI_Fuse(shape, mark).Shape();
 }
 
+TopoDS_Shape with_broken_edges(const TopoDS_Shape& shape, const BentSolid& solid, const Profile& profile)
+{
+    const BrokenEdges& broken = solid.broken;
+    const double side = (broken.left ? 1 : -1) * solid.thickness / 2;
+    const auto on_side = [&](const TopoDS_Shape& face) {
+        const BRepAdaptor_Surface surface(TopoDS::Face(face));
+        const gp_Pnt middle = surface.Value((surface.FirstUParameter() + surface.LastUParameter()) / 2,
+                                            (surface.FirstVParameter() + surface.LastVParameter()) / 2);
+        return std::ranges::any_of(profile.pieces(), [&](const Profile::Piece& piece) {
+            const gp_Pnt there = beside(profile, piece, (piece.from + piece.to) / 2, side);
+            return there.Translated(gp_Vec(0, solid.width / 2, 0)).Distance(middle) < 1e-6;
+        });
+    };
+    TopTools_IndexedDataMapOfShapeListOfShape faces;
+    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+    BRepFilletAPI_MakeChamfer chamfer(shape);
+    BRepFilletAPI_MakeFillet fillet(shape);
+    for (int i = 1; i <= faces.Extent(); ++i) {
+        const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
+        if (on_side(faces(i).First()) == on_side(faces(i).Last()))
+            continue;
+        if (broken.round)
+            fillet.Add(broken.size, edge);
+        else
+            chamfer.Add(broken.size, edge);
+    }
+    return broken.round ? fillet.Shape() : chamfer.Shape();
+}
+
 TopoDS_Shape made(const BentSolid& solid)
 {
     const Profile profile = middle_of(solid);
     const auto& pieces = profile.pieces();
     TopoDS_Shape shape = layer(solid, profile, solid.thickness / 2, -solid.thickness / 2);
+    if (solid.broken.size > 0)
+        shape = with_broken_edges(shape, solid, profile);
     if (solid.hole) {
         const Profile::Piece& bend = pieces[1];
         const double s = (bend.from + bend.to) / 2, h = heading(bend, s);

@@ -74,6 +74,13 @@ struct BendCut {
     double pitch = 0;    ///< radians, likewise, across the bend
 };
 
+/// Edges of the border at one side of the sheet, all around it, chamfered or rounded.
+struct BrokenEdges {
+    double size = 0;    ///< mm, of the chamfer's legs, or the radius; 0: they are sharp
+    bool round = false; ///< else a chamfer of 45 degrees
+    bool left = true;   ///< at that side
+};
+
 /// A section of straight legs and bends between them, the same all along y.
 struct BentSolid {
     std::string kind;            ///< bracket, Z, channel, hat, hem, knuckle
@@ -90,6 +97,7 @@ struct BentSolid {
     std::vector<Stamp> stamp = {}; ///< of brackets, which have one bend
     std::vector<BendCut> bend_cut = {};
     std::vector<Emboss> emboss = {};
+    BrokenEdges broken = {};
     std::uint64_t pose = 0; ///< turned and moved by this seed; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
