@@ -42,7 +42,10 @@ Finding note_on(const std::vector<MarkedPlace>& marked, const std::string& text)
 std::string recess(const SunkHole& hole)
 {
     const char* const kind = hole.counterbore ? "counterbore" : "countersink";
-    return hole.diameter > 0 ? fmt::format("{} {:.4g} mm wide, {:.4g} mm deep", kind, hole.diameter, hole.depth) : kind;
+    if (!(hole.diameter > 0))
+        return kind;
+    return fmt::format("{} {:.4g} mm wide, {:.4g} mm deep{}", kind, hole.diameter, hole.depth,
+                       hole.stepped ? " in all, in steps" : "");
 }
 
 /// "countersink 12 mm wide, 3 mm deep, of a hole of 6 mm, on the inner skin". @param sunk at one

@@ -138,8 +138,20 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
         size += normal.col(f).norm();
     }
     constexpr double square = 0.1; // 6 degrees
-    return SunkHole{0,         side,  circle->centre,         -circle->axis,     2 * circle->radius,
-                    2 * least, depth, along <= square * size, edge.wall.front(), wall.outer.vertex};
+    SunkHole hole{0,         side,  circle->centre,         -circle->axis,     2 * circle->radius,
+                  2 * least, depth, along <= square * size, edge.wall.front(), wall.outer.vertex};
+    const double off = wider * thickness;
+    double floor = 0; // mm, of what is as wide as the circle
+    for (const int v : wall.vertex) {
+        const double radius = circle->off_axis(solid.position.col(v)).norm(),
+                     down = -circle->height(solid.position.col(v));
+        if (radius > circle->radius - off && down < depth + off)
+            floor = std::max(floor, down);
+        const double sloped = circle->radius - (circle->radius - least) * down / depth;
+        hole.stepped |= !hole.counterbore && down < depth - off && std::abs(radius - sloped) > off;
+    }
+    hole.stepped |= hole.counterbore && floor < depth - off;
+    return hole;
 }
 
 /// The circle as a closed row of points.
@@ -289,7 +301,7 @@ std::vector<MarkLine> lines_of(const std::vector<SunkHole>& holes, Skin surface,
                               hole.skin == SheetSide::outer,
                               hole.skin == SheetSide::inner,
                               hole.diameter,
-                              hole.depth,
+                              hole.stepped ? 0 : hole.depth,
                               hole.least};
         for (const MarkOutline& edge : hole.edge)
             lines.push_back({on_surface(edge, surface, thickness), label});

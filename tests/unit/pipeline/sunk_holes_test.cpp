@@ -599,4 +599,36 @@ TEST(SunkHoles, AtTheSkinThatIsLaidFlatAreDoubtedAndNotMarked)
     }
 }
 
+TEST(SunkHoles, InStepsAreToldAsSuchAndHaveNoDepthInTheDrawing)
+{
+    const ScratchFolder folder;
+    for (const bool left : {false, true})
+        for (const bool cone : {false, true})
+            for (const bool two : {false, true}) {
+                BentSolid solid;
+                solid.kind = "steps";
+                solid.thickness = 4;
+                solid.width = 80;
+                solid.leg = {90};
+                Sink inner{.leg = 0, .centre = {40, 40}, .hole = 2.5, .wide = 4, .depth = 2.3, .left = left};
+                inner.counterbore = !cone;
+                Sink outer{.leg = 0, .centre = {40, 40}, .hole = 2.5, .wide = 6, .depth = 1.2, .left = left};
+                outer.counterbore = true;
+                solid.sink = {inner};
+                if (two)
+                    solid.sink.push_back(outer);
+                shapes::write_bent_solid(folder / "steps.step", solid);
+                const PartFile part = read_part(folder / "steps.step");
+                ASSERT_TRUE(part.solid);
+                const Finding* told = part.doctor.find(Fault::mark);
+                ASSERT_TRUE(told);
+                EXPECT_EQ(told->what.at(0).find("2.3 mm deep in all, in steps") != std::string::npos, two)
+                    << told->what[0];
+                ASSERT_EQ(part.solid->marks.size(), 1u);
+                const MarkLabel& label = part.solid->marks[0].label;
+                EXPECT_NEAR(label.wide, two ? 12 : 8, 1e-6);
+                EXPECT_NEAR(label.deep, two ? 0 : 2.3, 1e-6);
+            }
+}
+
 } // namespace spia
