@@ -78,11 +78,11 @@ MiddleSurface middle_surface(const TriMesh& solid, const ThinSolid& sheet, const
         const std::vector<int> done = holes_over_bends(skin, solid, from, units.surface);
         round_border(skin, solid, from, units.surface, done);
     }
-    if (const int wide = narrow_holes(skin, sunk); wide > 0)
-        remarks.doubt(
-            fmt::format("{} where what is sunk is widest, for triangles not to turn over: give the part finer "
-                        "triangles there",
-                        counted(wide, "vertex of a sunk hole stays", "vertices of sunk holes stay")));
+    if (const std::vector<const SunkHole*> wide = narrow_holes(skin, sunk); !wide.empty())
+        remarks.doubt(fmt::format("{} wide as what is sunk, the first at {} mm: triangles between its rim and what is "
+                                  "beside it would turn over; draw the hole at its least diameter",
+                                  counted(wide.size(), "sunk hole is laid flat as", "sunk holes are laid flat as"),
+                                  place_text(wide.front()->centre)));
     if (exchanged) {
         skin.mesh.triangle.row(1).swap(skin.mesh.triangle.row(2));
         skin.side = SheetSide::inner;

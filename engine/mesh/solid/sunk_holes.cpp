@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "engine/mesh/disjoint_sets.h"
@@ -272,11 +273,12 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
                                               (hole.skin == SheetSide::outer ? 1 : -1) * thickness / 2 * hole.inwards;
 }
 
-int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
+std::vector<const SunkHole*> narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
 {
     constexpr double rounding = 1e-12;
     const std::vector<char> on_rim = edge_graph(middle.mesh).on_rim; // others may be called by one there
     std::vector<FlatMove> moves;
+    std::map<int, const SunkHole*> of_vertex;
     for (const SunkHole& hole : holes)
         for (int v = 0; v < middle.mesh.vertices() && hole.least > 0; ++v) {
             if (!on_rim[size_t(v)] ||
@@ -285,10 +287,15 @@ int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
             const Eigen::Vector3d place = middle.mesh.position.col(v), way = place - hole.centre,
                                   out = way - way.dot(hole.inwards) * hole.inwards;
             const double share = hole.least / 2 / out.norm() - 1;
-            if (std::abs(share) > rounding)
-                moves.push_back({v, place + share * out, hole.inwards});
+            if (std::abs(share) <= rounding)
+                continue;
+            moves.push_back({v, place + share * out, hole.inwards});
+            of_vertex[v] = &hole;
         }
-    return int(move_in_flats(middle, moves).size());
+    std::set<const SunkHole*> kept; // of one vector: in its order
+    for (const FlatMove& move : move_in_flats(middle, moves))
+        kept.insert(of_vertex.at(move.vertex));
+    return {kept.begin(), kept.end()};
 }
 
 std::vector<MarkLine> lines_of(const std::vector<SunkHole>& holes, Skin surface, double thickness)

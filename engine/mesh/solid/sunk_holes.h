@@ -68,8 +68,8 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
 
 /// Gives round holes of a middle surface their least diameter, as they are cut before they are
 /// sunk.
-/// @returns how many of their vertices stay where they were, for triangles not to turn over
-int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes);
+/// @returns those that stay as wide as they were, for triangles not to turn over; in their order
+std::vector<const SunkHole*> narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes);
 
 /// The circle at the skin, or what there is of it, on a surface of the sheet. The same one at both
 /// skins is one line; on a skin only those at the other one are lines, for its own are its holes.
