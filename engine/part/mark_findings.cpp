@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,11 +80,7 @@ std::string laid_flat(const std::vector<SunkHole>& holes, int count, Skin taken,
 {
     if (taken != Skin::middle)
         return fmt::format("the diameters at the {} skin", name(taken));
-    std::set<int> in_bends;
-    for (const SunkHole& hole : holes)
-        if (hole.diameter == 0)
-            in_bends.insert(hole.hole);
-    const int wider = int(wider_in_middle(holes, side, thickness).size()), bent = int(in_bends.size()),
+    const int wider = int(wider_in_middle(holes, side, thickness).size()), bent = int(sunk_in_bends(holes).size()),
               crossed = wider - bent;
     if (wider == 0)
         return "the least diameter of each";

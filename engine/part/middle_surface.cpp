@@ -56,7 +56,7 @@ MiddleSurface middle_surface(const TriMesh& solid, const ThinSolid& sheet, const
                                 "flat, its edge is",
                                 "sunk holes are cut off at the skin that the middle surface is made from: laid "
                                 "flat, their edges are")));
-    if (const int bent = sunk_in_bends(holes); bent > 0)
+    if (const int bent = int(sunk_in_bends(holes).size()); bent > 0)
         remarks.doubt(fmt::format("{} at the {} skin, and the least diameter only where a straight wall ends there",
                                   counted(bent, "hole is sunk in a bend: laid flat, its edge is that",
                                           "holes are sunk in bends: laid flat, their edges are those"),

@@ -25,8 +25,6 @@ public:
                 face_at_[size_t(v)] = f;
     }
 
-    const Eigen::Matrix3Xd& goal() const { return goal_; }
-
     /// The triangles of the flat that a vertex is on, once all are moved.
     std::vector<int> around(const FlatMove& move) const
     {

@@ -342,7 +342,7 @@ private:
 };
 
 /// The outer skin below a middle surface. What has been added to that is on no vertex of the solid,
-/// and lies as far outside as the sheet is thick.
+/// and lies half a thickness outside.
 TriMesh outer_below(const SkinMesh& middle, const TriMesh& solid, double thickness)
 {
     TriMesh outer{solid.position(Eigen::all, middle.source_vertex), middle.mesh.triangle};

@@ -228,9 +228,13 @@ int wider_at(const std::vector<SunkHole>& holes, SheetSide skin)
     return int(std::ranges::count(holes, skin, &SunkHole::skin));
 }
 
-int sunk_in_bends(const std::vector<SunkHole>& holes)
+std::set<int> sunk_in_bends(const std::vector<SunkHole>& holes)
 {
-    return int(std::ranges::count_if(holes, [](const SunkHole& hole) { return hole.diameter == 0; }));
+    std::set<int> result;
+    for (const SunkHole& hole : holes)
+        if (hole.diameter == 0)
+            result.insert(hole.hole);
+    return result;
 }
 
 std::set<int> sunk_through(const std::vector<SunkHole>& holes, double thickness)

@@ -46,8 +46,8 @@ int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin);
 /// How many holes are wider at a skin than inside.
 int wider_at(const std::vector<SunkHole>& holes, SheetSide skin);
 
-/// How many are sunk into a bend, where their circle is on no plane.
-int sunk_in_bends(const std::vector<SunkHole>& holes);
+/// The numbers of the holes that are sunk into a bend, where their circle is on no plane.
+std::set<int> sunk_in_bends(const std::vector<SunkHole>& holes);
 
 /// Of those that something cuts off, the numbers of the holes that are sunk through all of the
 /// sheet: no straight wall is below.
