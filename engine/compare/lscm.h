@@ -17,10 +17,10 @@ struct LscmOptions {
 };
 
 /// Least squares conformal map [Levy, Petitjean, Ray, Maillot 2002]: the least sum over the
-/// triangles of
-/// |W_1 u_1 + W_2 u_2 + W_3 u_3|^2 / (2 A), u the flat corners and W the sides of the triangle in its own plane as
-/// complex numbers (their eq. 4), with two vertices held. Holes need nothing special: their edges are free. The result
-/// depends on the two vertices and may have flipped triangles.
+/// triangles of |W_1 u_1 + W_2 u_2 + W_3 u_3|^2 / (2 A), u the flat corners and W the sides of the
+/// triangle in its own plane as complex numbers (their eq. 4), with two vertices held. Holes need
+/// nothing special: their edges are free. The result depends on the two vertices and may have
+/// flipped triangles.
 /// @throws InputError  as require_sheet(), or if the pins are not two vertices of the part
 /// @throws SolveError  if the system cannot be solved
 FlatMap lscm(const TriMesh& part, const LscmOptions& options = {}, const Progress& progress = {});

@@ -22,7 +22,8 @@ class WritingJob {
 public:
     using Written = std::function<void(const std::filesystem::path&)>;
 
-    /// @param files    as many are written, most likely; each is half done when its content is there
+    /// @param files    as many are written, most likely; each is half done when its content is
+    ///         there
     /// @param written  called with each file that is there
     explicit WritingJob(Progress progress, size_t files = 1, Written written = {});
     ~WritingJob();

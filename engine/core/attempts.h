@@ -19,8 +19,8 @@ struct AttemptReport {
 struct PlannedAttempt {
     std::string name;
     std::function<bool()> when; ///< whether what is kept leaves a reason to try it; none: always
-    /// Says in the report why it ended, or of what attempts it was made: then the winner's reason is
-    /// its own, without one that of the last.
+    /// Says in the report why it ended, or of what attempts it was made: then the winner's reason
+    /// is its own, without one that of the last.
     /// @returns whether its result is kept
     std::function<bool(AttemptReport& report)> run;
     std::function<bool()> accept = {}; ///< whether what is kept now will do, and no other is tried;

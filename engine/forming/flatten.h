@@ -90,15 +90,17 @@ struct FlattenResult {
 };
 
 /// Finds the flat blank that one forming step turns into the part.
-/// @param part      mm; one component, at least one boundary loop, no handles (cut_open() sees to it), no face without area
+/// @param part      mm; one component, at least one boundary loop, no handles (cut_open() sees to
+///         it), no face without area
 /// @param progress  one checkpoint per iteration; cancelling takes effect at the next one
 /// @param watch     sees the blank while it converges
 /// @throws InputError  if the part or an option is not as described; names the first offending face
 /// @throws SolveError if there is no flip-free state at all, or none that can be told in the part's
-/// coordinates If the virtual-work system does not converge, the hardening curve is continued from
-/// the uniform strain on and equations that the mesh cannot bear are relaxed; if that fails too,
-/// the blank of the energy stage (thickness held) is given. The report says so. The result does not
-/// depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
+///         coordinates
+/// If the virtual-work system does not converge, the hardening curve is continued from the uniform
+/// strain on and equations that the mesh cannot bear are relaxed; if that fails too, the blank of
+/// the energy stage (thickness held) is given. The report says so. The result does not depend on
+/// the number of threads. [Zhu et al. 2013, eqs. 4-23]
 FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress = {},
                       const StepWatch& watch = {});
 

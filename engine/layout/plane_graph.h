@@ -29,7 +29,8 @@ using Face = std::vector<CurveUse>;
 
 /// The border with its vertices: corners, ends of cuts, and more where an arc turns far or is long
 /// beside the spacing of the holes. Cuts divide it already.
-/// @param forced         vertices of the part that become vertices of the layout; if not empty and `only_forced`, no others do
+/// @param forced         vertices of the part that become vertices of the layout; if not empty and
+///         `only_forced`, no others do
 /// @param close_corners  two corners side by side are two vertices
 PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOptions& options,
                         const std::vector<int>& forced, bool only_forced, bool close_corners);

@@ -26,16 +26,19 @@ struct FormingLimitCurve {
 };
 
 /// Forming limit curve of low-carbon steel by thickness t and hardening exponent n:
-///   FLC0 = (23.3 + 14.13 t/mm) n / 0.21 percent, engineering; n above 0.21 counts as 0.21 [Keeler and Brazier 1977]
-///   minor strain < 0: eps_1 = ln(1 + FLC0) - eps_2, logarithmic: the thickness at necking is one and the same
-///   minor strain > 0: e_1 = FLC0 + 0.6 e_2, engineering, up to e_2 = 0.2                [AHSS Application Guidelines]
-/// Keeler and Brazier, "Relationship between laboratory material characterization and press-shop formability",
-/// Microalloying 75 (1977), give FLC0. Both branches are worded so in the WorldAutoSteel AHSS Application Guidelines,
-/// "Forming limit curves", of which Keeler was the technical editor. The left branch is straight in logarithmic
-/// strains, not in engineering ones.
+///   FLC0 = (23.3 + 14.13 t/mm) n / 0.21 percent, engineering; n above 0.21 counts as 0.21
+///   [Keeler and Brazier 1977]
+///   minor strain < 0: eps_1 = ln(1 + FLC0) - eps_2, logarithmic: the thickness at necking is one
+///   and the same
+///   minor strain > 0: e_1 = FLC0 + 0.6 e_2, engineering, up to e_2 = 0.2
+///   [AHSS Application Guidelines]
+/// Keeler and Brazier, "Relationship between laboratory material characterization and press-shop
+/// formability", Microalloying 75 (1977), give FLC0. Both branches are worded so in the
+/// WorldAutoSteel AHSS Application Guidelines, "Forming limit curves", of which Keeler was the
+/// technical editor. The left branch is straight in logarithmic strains, not in engineering ones.
 /// @param thickness mm, of the flat sheet; above 3 the curve is noted as an extrapolation
 /// @param n at uniform elongation; above 0.21 it is noted that 0.21 was taken, below 0.05 that this
-/// is no sheet for forming
+///         is no sheet for forming
 /// @throws InputError unless both are above 0 and n is below 1
 FormingLimitCurve keeler_brazier(double thickness, double n);
 

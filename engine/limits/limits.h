@@ -17,14 +17,16 @@ namespace spia {
 /// What forming does to a place of the sheet. The first of these that holds, from crack down, is
 /// its zone:
 ///   crack               the major strain is above the forming limit curve
-///   risk                it is below the curve by less than half of the margin, in points of engineering major strain
+///   risk                it is below the curve by less than half of the margin, in points of
+///                       engineering major strain
 ///   marginal            it is below the curve by less than the margin
 ///   excessive_thinning  the sheet is thinner than allowed: 1 - h/h0 above max_thinning
 ///   strong_thickening   it is thicker than allowed: h/h0 - 1 above max_thickening
-///   low_strain          both principal engineering strains are smaller in size than low_strain: the place is hardly
-///                       stretched, will be soft to the touch and spring back
-///   wrinkling_tendency  the sheet thickens (eps_1 + eps_2 < 0): the compression outweighs the tension, and where no
-///                       tool holds the sheet flat it can buckle. Whether it does, no membrane theory tells
+///   low_strain          both principal engineering strains are smaller in size than low_strain:
+///                       the place is hardly stretched, will be soft to the touch and spring back
+///   wrinkling_tendency  the sheet thickens (eps_1 + eps_2 < 0): the compression outweighs the
+///                       tension, and where no tool holds the sheet flat it can buckle. Whether it
+///                       does, no membrane theory tells
 ///   safe                none of these
 /// Numbers rise with what is at stake, so the worst of several zones is the greatest.
 enum class Zone {

@@ -113,8 +113,8 @@ void append(FilledMesh& filled, const Additions& additions)
             additions.triangle[t][2];
 }
 
-/// cot of the angle between two sides is beyond what is counted. There linear functions of the plane
-/// no longer make the Laplacian zero.
+/// cot of the angle between two sides is beyond what is counted. There linear functions of the
+/// plane no longer make the Laplacian zero.
 bool is_sliver(const Eigen::Vector2d& ca, const Eigen::Vector2d& cb)
 {
     return std::abs(ca.dot(cb)) > largest_cotangent * std::abs(cross(ca, cb));

@@ -175,7 +175,8 @@ public:
     bool corrected() const { return options_.parameters == FitParameters::corrected; }
     bool within() const { return best_->judgement.within; }
 
-    /// Spans halved where the surface is too far from the part, and a few times more where it folds.
+    /// Spans halved where the surface is too far from the part, and a few times more where it
+    /// folds.
     bool halve_spans(AttemptReport& own)
     {
         constexpr int most_rounds_for_folds = 3; // once it is near enough

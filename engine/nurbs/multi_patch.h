@@ -54,8 +54,8 @@ std::string name(PatchSide side);
 std::vector<PatchSide> outer_sides(const MultiPatch& patches);
 
 /// @throws InputError if an interface names a patch that is not there, a side is in two interfaces,
-/// or the two sides of an
-///         interface are not the same curve to the last bit; the message names both sides and what differs
+///         or the two sides of an interface are not the same curve to the last bit; the message
+///         names both sides and what differs
 void require_watertight(const MultiPatch& patches);
 
 /// The control points of all patches, where those of shared sides and corners count once.

@@ -16,7 +16,8 @@ class SurfaceProjection {
 public:
     /// @param samples_per_span  where Newton's method starts: at the nearest place of this
     /// tessellation. Two sheets of
-    ///        the surface whose distances from a point differ by less than the triangles' sag may be confused.
+    ///        the surface whose distances from a point differ by less than the triangles' sag may
+    ///        be confused.
     /// @param progress  checkpoints while that is made
     explicit SurfaceProjection(const NurbsSurface& surface, int samples_per_span = 4, const Progress& progress = {});
 

@@ -38,7 +38,8 @@ std::string choice(const CadItem& item);
 /// is
 std::vector<int> chosen_faces(const CadTree& tree, std::span<const std::string> wanted);
 
-/// "body:2      Hood                         31 faces, sheet body", those in an assembly further to the right.
+/// "body:2      Hood                         31 faces, sheet body", those in an assembly further to
+/// the right.
 std::string describe(const CadTree& tree, int item);
 
 /// One line for each item, as messages show it; of many the first ones.

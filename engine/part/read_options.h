@@ -30,8 +30,8 @@ struct ReadOptions {
                                          ///< closed surfaces that are not flat enough
                                          ///< (has_both_skins()) are taken as hollow bodies, not as
                                          ///< solids
-    /// Not given: the triangles stay as they are, but for cad.keep_triangles; a part that is refused
-    /// has none.
+    /// Not given: the triangles stay as they are, but for cad.keep_triangles; a part that is
+    /// refused has none.
     std::optional<RemeshOptions> remesh = {};
     MeshTargets targets = {}; ///< checked after that; not given: none
 

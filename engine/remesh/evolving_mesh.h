@@ -32,7 +32,8 @@ public:
     /// Divides the kept lines (divide_line()).
     /// @param size     of edges at each vertex, mm
     /// @param sagitta  mm, that the middle of a new edge may be off the given mesh
-    /// @param gap      border_clearance(): chords along the boundary take a third of it at most, so that banks do not cross
+    /// @param gap      border_clearance(): chords along the boundary take a third of it at most, so
+    ///         that banks do not cross
     EvolvingMesh(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
                  const ClosestPointSearch& search, double sagitta, const Eigen::VectorXd& gap,
                  const Progress& progress);

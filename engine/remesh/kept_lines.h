@@ -20,12 +20,11 @@ struct KeptLines {
 
 /// @param label  per face; empty: all the same
 /// @param angle  radians; an edge is sharp where the normals of its faces differ by more, and a
-/// line has a corner
-///               where it turns by more
+///         line has a corner where it turns by more
 /// @param ridge  radians; an edge whose faces differ by more is kept if such edges follow each
-/// other without a fork and
-///               the faces beside it are at least 0.4 of the size wide
-/// @param size   mm, of edges to come; a line with a loose end that is shorter than that is not kept
+///         other without a fork and the faces beside it are at least 0.4 of the size wide
+/// @param size   mm, of edges to come; a line with a loose end that is shorter than that is not
+///         kept
 KeptLines kept_lines(const TriMesh& mesh, std::span<const int> label, double angle, double ridge, double size);
 
 } // namespace spia

@@ -28,8 +28,8 @@ struct MeshDistance {
 /// that was seen on the face, or no more than what was seen anywhere.
 /// @param search     of `to`
 /// @param precision  mm
-/// @param harmless   mm: bounds of single faces that are no larger are not made sharper, however little was seen
-///                   there, unless nothing was seen as far away on any face
+/// @param harmless   mm: bounds of single faces that are no larger are not made sharper, however
+///         little was seen there, unless nothing was seen as far away on any face
 /// The result does not depend on the number of threads.
 MeshDistance farthest(const TriMesh& from, const TriMesh& to, const ClosestPointSearch& search, double precision,
                       double harmless = std::numeric_limits<double>::infinity(), const Progress& progress = {});

@@ -18,7 +18,8 @@ struct ParametricMesh {
 /// by their lengths in space, but only so that no triangle turns over in the parameter plane: over
 /// a height field the mesh is one, too, and never folds. Botsch and Kobbelt 2004 (A remeshing
 /// approach to multiresolution modeling), carried over to a parameter plane.
-/// @param surface    (u, v) -> point, mm; u and v are about mm on the surface, except on steep walls
+/// @param surface    (u, v) -> point, mm; u and v are about mm on the surface, except on steep
+///         walls
 /// @param triangles  wanted number; the actual one is within a few per cent
 /// @param longest    (u, v) -> upper limit of the edge length there, mm, e.g. around small holes
 ParametricMesh mesh_surface(const Region& region, const std::function<Eigen::Vector3d(const Eigen::Vector2d&)>& surface,

@@ -16,8 +16,9 @@ struct AxisymmetricPart {
 };
 
 /// Rows of vertices on the meridian, about as far apart as the vertices within a row.
-/// @param meridian   2 by #points (r, z), mm, from the axis outwards; r = 0 first gives a pole, r > 0 an inner edge.
-///                   Between points it is straight; where it turns by more than 20 degrees it keeps a row of vertices.
+/// @param meridian   2 by #points (r, z), mm, from the axis outwards; r = 0 first gives a pole, r >
+///         0 an inner edge. Between points it is straight; where it turns by more than 20 degrees
+///         it keeps a row of vertices.
 /// @param triangles  wanted number; the actual one is within 10 %, from 5,000 on within 3 %
 AxisymmetricPart axisymmetric(const Eigen::Matrix2Xd& meridian, int triangles);
 

@@ -19,9 +19,11 @@
 
 /// Compares a picture of the window with a reference of half its size:
 ///
-///     compare_pictures PICTURE REFERENCE DIFFERENCE LIMIT [X Y WIDTH HEIGHT]    exit code 1 if more than LIMIT (a share) of the
-///                                                                               pixels differ, but for those of a rectangle
-///     compare_pictures PICTURE REFERENCE                                        makes the reference
+///     compare_pictures PICTURE REFERENCE DIFFERENCE LIMIT [X Y WIDTH HEIGHT]
+///     compare_pictures PICTURE REFERENCE
+///
+/// The first ends with code 1 if more than LIMIT (a share) of the pixels differ, but for those of a
+/// rectangle; the second makes the reference.
 ///
 /// Each pixel of a reference is the mean of 2 x 2: smooth edges that fall a little otherwise are no
 /// difference, and the file is small. A pixel differs if one of its channels is off by more than 24

@@ -54,8 +54,8 @@ ExchangeError refused(const char* why, const NurbsSurface& surface, const TrimLo
 
 TopoDS_Wire wire_of(const TrimLoop& loop, const NurbsSurface& surface, const Handle(Geom_BSplineSurface) & geometry)
 {
-    // A bound only. By default a curve in space has some 230 pieces and is then left off its place: a
-    // border of 203 corners over a surface of many knots was 0.28 mm off, and needed 340.
+    // A bound only. By default a curve in space has some 230 pieces and is then left off its place:
+    // a border of 203 corners over a surface of many knots was 0.28 mm off, and needed 340.
     constexpr int most_degree = 14, most_pieces = 10000;
     BRepBuilderAPI_MakeWire wire;
     for (const PlaneCurve& curve : loop) {

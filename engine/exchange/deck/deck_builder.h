@@ -76,7 +76,8 @@ public:
                                                            ///< open
 
     /// @param part       number of a part
-    /// @param corners    ids of three or four nodes; a fourth that is 0 or repeats the third makes a triangle
+    /// @param corners    ids of three or four nodes; a fourth that is 0 or repeats the third makes
+    ///         a triangle
     /// @param thickness  of this element; 0: that of its part
     void add_shell(int part, std::int64_t id, std::span<const std::int64_t> corners, double thickness = 0);
 

@@ -63,7 +63,8 @@ private:
             system(name.back());
         else if (name == "CORD1R" || name == "CORD1C" || name == "CORD1S")
             systems_by_nodes(name.back());
-        else if (name.starts_with("MAT") && name.size() > 3 && name[3] >= '0' && name[3] <= '9') // MATS1 adds to MAT1
+        // MATS1 adds to MAT1
+        else if (name.starts_with("MAT") && name.size() > 3 && name[3] >= '0' && name[3] <= '9')
             material_[lines_.whole_or_zero(entry_[0])] = name;
         else if (is_solid_or_bar(name))
             deck_.count_other_elements(name);

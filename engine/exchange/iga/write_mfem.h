@@ -18,8 +18,9 @@ namespace spia {
 /// whole strips of patches, share it.
 /// @param name for a comment; may be anything
 /// @throws InputError if the patches are none, no surfaces or not watertight, or MFEM has no words
-/// for how they join: a patch that is closed
-///         in itself, two sides between the same two corners, a strip that comes back upon itself twisted; ExchangeError if the file cannot be written
+///         for how they join: a patch that is closed in itself, two sides between the same two
+///         corners, a strip that comes back upon itself twisted; ExchangeError if the file cannot
+///         be written
 void write_mfem(const std::filesystem::path& path, const MultiPatch& patches, std::string_view name = "surface",
                 LengthUnit unit = LengthUnit::mm);
 

@@ -150,7 +150,8 @@ void write_tables(DxfText& dxf, const DxfFrame& frame)
     write_applications(dxf);
     dxf.begin_table("DIMSTYLE", dimstyles, 1);
     dxf(100, "AcDbDimStyleTable");
-    dxf(0, "DIMSTYLE").handle(105, standard_dimstyle).handle(330, dimstyles); // the one entry whose handle has code 105
+    // the one entry whose handle has code 105
+    dxf(0, "DIMSTYLE").handle(105, standard_dimstyle).handle(330, dimstyles);
     dxf(100, "AcDbSymbolTableRecord")(100, "AcDbDimStyleTableRecord")(2, "Standard")(70, 0);
     dxf.end_table();
     dxf.begin_table("BLOCK_RECORD", block_records, 2);

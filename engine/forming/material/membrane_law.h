@@ -33,11 +33,14 @@ struct AxisStress {
 /// Hill 1948, plane stress, incompressible, total (Hencky) theory. In the sheet's material axes (1
 /// rolling, 2 across),
 ///   sigma_eq^2 = (G+H) sigma_11^2 - 2 H sigma_11 sigma_22 + (F+H) sigma_22^2 + 2 N sigma_12^2,
-///   G = 1/(1+r0),  H = r0/(1+r0),  F = r0/(r90 (1+r0)),  N = (r0+r90)(1+2 r45) / (2 r90 (1+r0))    [Hill 1948]
-/// and the strains follow the normal to it, eps = eps_eq/sigma_eq M sigma with M the matrix of that form, so that
-///   eps_eq^2 = eps^T M^-1 eps,  sigma = sigma_eq/eps_eq M^-1 eps = dW/deps,  W(eps) = integral of sigma_eq d eps_eq.
-/// The hardening curve is the one along the rolling direction. Without one the sheet is isotropic in its plane:
-/// r0 = r45 = r90 = the mean normal anisotropy, whence
+///   G = 1/(1+r0),  H = r0/(1+r0),  F = r0/(r90 (1+r0)),  N = (r0+r90)(1+2 r45) / (2 r90 (1+r0))
+///   [Hill 1948]
+/// and the strains follow the normal to it, eps = eps_eq/sigma_eq M sigma with M the matrix of that
+/// form, so that
+///   eps_eq^2 = eps^T M^-1 eps,  sigma = sigma_eq/eps_eq M^-1 eps = dW/deps,
+///   W(eps) = integral of sigma_eq d eps_eq.
+/// The hardening curve is the one along the rolling direction. Without one the sheet is isotropic
+/// in its plane: r0 = r45 = r90 = the mean normal anisotropy, whence
 ///   eps_eq  = (1+r)/sqrt(1+2r) sqrt(eps_1^2 + eps_2^2 + 2r/(1+r) eps_1 eps_2)
 ///   sigma_k = (sigma_eq/eps_eq) (1+r)^2/(1+2r) (eps_k + r/(1+r) eps_l)
 class MembraneLaw {

@@ -39,8 +39,8 @@ struct TensileTest {
 /// be in either order if their titles name strain and stress.
 /// @param name of the table, for messages
 /// @throws InputError with the line where there is one: whether the data are engineering or true is
-/// not said; another
-///         unit than MPa; strains that fall or cannot be; too few rows; no elastic rows and no modulus given
+///         not said; another unit than MPa; strains that fall or cannot be; too few rows; no
+///         elastic rows and no modulus given
 TensileTest tensile_test(const TwoColumns& table, const std::string& name, const TensileOptions& options = {});
 
 } // namespace spia

@@ -29,9 +29,9 @@ struct EquilibriumResult {
 std::string describe(const EquilibriumResult& result);
 
 /// Solves the virtual-work equations by Newton's method with the stabilized tangent
-/// (expected_stress.h) and a line search on
-/// |R| or its natural level. No step turns a triangle over. The mean translation and rotation of the blank are held by three multipliers with area weights instead
-/// of pinned nodes, so no node carries their resultant alone.
+/// (expected_stress.h) and a line search on |R| or its natural level. No step turns a triangle
+/// over. The mean translation and rotation of the blank are held by three multipliers with area
+/// weights instead of pinned nodes, so no node carries their resultant alone.
 EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work,
                                     const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
                                     const EquilibriumOptions& options, const Progress& progress);

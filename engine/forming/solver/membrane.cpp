@@ -146,7 +146,8 @@ Eigen::Matrix2d membrane_force_value(const MembraneLaw& law, double h0, const Ei
 MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G, const ElementStress* expected)
 {
     // With M = U^T dG V and U^T dU, V^T dV the spins of the singular vectors:
-    //   strain in the axes U: d eps_k = -M_kk / s_k, 2 d eps_12 = -q (s_2 M_12 + s_1 M_21), q = ln(s_1^2/s_2^2) / (s_1^2 - s_2^2),
+    //   strain in the axes U: d eps_k = -M_kk / s_k, 2 d eps_12 = -q (s_2 M_12 + s_1 M_21),
+    //   q = ln(s_1^2/s_2^2) / (s_1^2 - s_2^2),
     //   spin of V against U: (M_12 - M_21) / (s_1 + s_2),
     // both without a pole at s_1 = s_2.
     const Svd2 d = svd(G);

@@ -49,7 +49,8 @@ Eigen::Matrix4d definite(const Eigen::Matrix4d& K, const Svd2& G)
 
 /// Change of M (h sigma) g with G, column by column.
 /// @param pull_back F^T
-/// @param relaxed   share in which M is F^T, or that seen in the blank's coordinates, and changes with G
+/// @param relaxed   share in which M is F^T, or that seen in the blank's coordinates, and changes
+///         with G
 Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
                                          const Eigen::Matrix2d& M, double relaxed, const Eigen::Vector2d& g)
 {

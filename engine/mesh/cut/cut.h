@@ -52,10 +52,10 @@ CutPart cut_along(const TriMesh& part, const std::vector<std::array<int, 2>>& ed
 /// - handles along a short cut graph (handle_cut.h);
 /// - a closed part along the shortest way between two of its points that are farthest apart;
 /// - a tube, whose ends would have to become the two edges of a flat ring, from one end to the
-///   other along the shortest way:
-///   where the ring would need scales apart by more than a factor of two, and the fan less than half of that
-///   in logarithms (ring_strain.h). Loops shorter than a quarter of the one looked at do not count as ends; windows, whose edge
-///   turns by nearly a full turn as in a flat sheet, are looked at last;
+///   other along the shortest way: where the ring would need scales apart by more than a factor of
+///   two, and the fan less than half of that in logarithms (ring_strain.h). Loops shorter than a
+///   quarter of the one looked at do not count as ends; windows, whose edge turns by nearly a full
+///   turn as in a flat sheet, are looked at last;
 /// - a bottle, whose mouth is less than a quarter as long as the longest line around it, from the
 ///   mouth to its farthest point.
 /// @param part one component, manifold, two-sided

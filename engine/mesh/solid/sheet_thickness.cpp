@@ -52,8 +52,8 @@ struct SkinAt {
     /// It lies on the skin's surface, while those within a chord of a bend lie below it.
     bool turns() const { return axis != Eigen::Vector3d::Zero(); }
 
-    /// Whether a way goes straight through the sheet: from beside a chamfer the nearest place of the
-    /// other skin is its border, askew.
+    /// Whether a way goes straight through the sheet: from beside a chamfer the nearest place of
+    /// the other skin is its border, askew.
     bool straight(const Eigen::Vector3d& way) const
     {
         constexpr double askew = 0.02; // sine of 1.1 degrees

@@ -116,8 +116,8 @@ ThinSolid result_of(const SolidInPieces& solid, std::vector<SheetMark> marks, do
         if (first < 0 && side != PieceSide::rim)
             first = f;
     }
-    // By their bends: holes that are sunk would make the skin they are at the smaller one. Of a sheet
-    // that turns as much to either side, by their areas.
+    // By their bends: holes that are sunk would make the skin they are at the smaller one. Of a
+    // sheet that turns as much to either side, by their areas.
     constexpr double rounding = 1e-9, turned = 1e-6;
     const double bends = thickness * turning(solid, marks, flipped), areas = one - other,
                  larger = std::abs(bends) > turned * (one + other) ? bends : areas;

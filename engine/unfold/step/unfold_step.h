@@ -39,16 +39,17 @@ struct UnfoldStepResult {
 /// is measured from its place on the target to the original part, whatever steps were before.
 /// @param part   as it is formed, mm
 /// @param state  3 by #V, mm: where its vertices are now; before the first step the part's own
-/// positions
+///         positions
 /// @param options of flatten(); of the process only tailored pieces and the rolling direction, seen
-/// square to the target in the
-///               middle of the hinge. A piece that is joined to nothing lies on a plane as flatten() lays it, with the plane's normal as
-///               stamping direction; where steps before have moved it and it is seen whole along that, it starts from there
-///               if there is a way.
+///         square to the target in the middle of the hinge. A piece that is joined to nothing lies
+///         on a plane as flatten() lays it, with the plane's normal as stamping direction; where
+///         steps before have moved it and it is seen whole along that, it starts from there if
+///         there is a way.
 /// @throws InputError if the pick or an option is not as described: names the first offending face
 /// @throws SolveError if a piece cannot be laid on the target without turning a triangle over:
-/// names the face The result does not depend on the number of threads nor on the order of the faces
-/// in the pick. [Zhu et al. 2013, sec. 4.3]
+///         names the face
+/// The result does not depend on the number of threads nor on the order of the faces in the pick.
+/// [Zhu et al. 2013, sec. 4.3]
 UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state, const UnfoldPick& pick,
                              const FlattenOptions& options, const Progress& progress = {});
 

@@ -93,7 +93,8 @@ TEST(FillHoles, APlanePartOfSliversStaysAPlane)
         const int quarter = around / 4;
         const auto rim = [&](int i) { return corners + (i + around) % around; };
         part.triangle.resize(3, corners + around);
-        for (int c = 0; c < corners; ++c) { // the corners' directions are those of the quarters' middles
+        // the corners' directions are those of the quarters' middles
+        for (int c = 0; c < corners; ++c) {
             const int first = (c + 2) % corners * quarter;
             for (int i = 0; i < quarter; ++i)
                 part.triangle.col(c * quarter + i) << c, rim(first + i + 1), rim(first + i);

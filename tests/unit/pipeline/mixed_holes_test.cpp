@@ -46,7 +46,8 @@ void add_hole(BentSolid& solid, shapes::SeededRandom& random, int leg, const Eig
         sink.depth = random.between(0.3, 0.8) * solid.thickness; // shallower wide ones are marks
         const double most = 0.4 * room - radius;
         sink.wide = radius + random.between(0.2, 1) * (sink.counterbore ? most : std::min(most, sink.depth));
-        sink.above = 0.1 * solid.thickness; // a flat cone is so wide there that it meets the next leg
+        // a flat cone is so wide there that it meets the next leg
+        sink.above = 0.1 * solid.thickness;
         solid.sink.push_back(sink);
     }
 }

@@ -21,7 +21,8 @@
 /// Structs to and from JSON by a list of their members, once for scripts, projects and reports:
 ///
 ///     template <> inline constexpr auto members_of<Probe> =
-///         std::tuple{required("face", &Probe::face, Between{0, most}), member("barycentric", &Probe::barycentric)};
+///         std::tuple{required("face", &Probe::face, Between{0, most}),
+///                    member("barycentric", &Probe::barycentric)};
 ///
 /// Reading is strict (an unknown member or a wrong type is an InputError that names the place and
 /// what is allowed there) and partial: what is not given keeps the value it has.

@@ -14,7 +14,7 @@
 ///       {"do": "open_part", "file": "door.stl", "unit": "mm"},
 ///       {"do": "run_to", "stage": "fit"},
 ///       {"do": "wait", "seconds": 60},
-///       {"do": "set_display", "field": "thinning", "bands": 10},            // the other members stay as they are
+///       {"do": "set_display", "field": "thinning", "bands": 10}, // others stay as they are
 ///       {"do": "set_view", "camera": {"blank": {"height": 200}}, "dark": false},
 ///       {"do": "expect", "at": "/stages/fit", "equals": true},
 ///       {"do": "expect", "at": "/figures/result/thinning_max", "above": 0.05, "below": 0.5}
@@ -22,9 +22,9 @@
 ///
 /// An action has the members of its struct in actions.h; set_grid, set_display, set_view and
 /// add_probe those of the struct in it. What is not given keeps its default; in set_grid,
-/// set_display, set_view, change_region and change_step its present value.
-/// Vectors are lists of numbers, turns w, x, y, z; enumerations have the names of names.h. Comments
-/// are allowed. Paths count from the folder in which the program was started.
+/// set_display, set_view, change_region and change_step its present value. Vectors are lists of
+/// numbers, turns w, x, y, z; enumerations have the names of names.h. Comments are allowed. Paths
+/// count from the folder in which the program was started.
 namespace spia::viewer {
 
 /// @param present  what members that are not given keep

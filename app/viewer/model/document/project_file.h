@@ -11,24 +11,30 @@
 /// chose, not the results: opening runs the chain again. Any change of the form raises the version;
 /// a file of a newer one is refused.
 ///
-/// | member | what |
 /// |---|---|
-/// | `part.path` | `file`: relative to the project's folder; `was_at`: where it was when saved, tried second |
-/// | `part.unit`, `part.weld`, `part.weld_gap_mm` | of the file; null: as its format has it |
-/// | `part.keep_largest`, `part.parts`, `part.skin`, `part.sewing_mm`, `part.deflection_mm`, `part.leave_out_bad_faces`, `part.keep_triangles`, `part.seam`, `part.remesh` | as in the script actions set_reading, set_seam and set_remeshing |
-/// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
-/// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
-/// | `k_factor`, `k_table` | as in the script action set_k_factor; a table given like the file of the part |
-/// | `k_table_rows` | what the table held, for when its file has gone: R/t and K |
-/// | `fit` | as in the script action set_fit; without it `natural_ends` says the ends |
-/// | `ran` | the last stage that had been run, or null |
-/// | `steps_ran` | whether steps of unfolding had been run |
-/// | `blank_of_steps_polished` | null where the blank is that of one step; else it is that of the steps, polished or not |
-/// | `edge_restraint`, `rolling` | as in the script action set_process |
-/// | `limits`, `limits_table` | as in the script action set_limits; the table given like the file of the part |
-/// | `display`, `view` | as in the script actions set_display and set_view |
-/// | `picks` | StoredPicks: numbers of the part's file and geometry; matrices column by column |
-/// | `recovers` | only in an autosave: the project that it stands for |
+/// - `part.path`: `file`: relative to the project's folder; `was_at`: where it was when saved,
+///   tried second
+/// - `part.unit`, `part.weld`, `part.weld_gap_mm`: of the file; null: as its format has it
+/// - `part.keep_largest`, `part.parts`, `part.skin`, `part.sewing_mm`, `part.deflection_mm`,
+///   `part.leave_out_bad_faces`, `part.keep_triangles`, `part.seam`, `part.remesh`: as in the
+///   script actions set_reading, set_seam and set_remeshing
+/// - `material`, `material_file`: a built-in grade; or null or a file, given like that of the part
+/// - `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters`: the other options of
+///   the chain; mm
+/// - `k_factor`, `k_table`: as in the script action set_k_factor; a table given like the file of
+///   the part
+/// - `k_table_rows`: what the table held, for when its file has gone: R/t and K
+/// - `fit`: as in the script action set_fit; without it `natural_ends` says the ends
+/// - `ran`: the last stage that had been run, or null
+/// - `steps_ran`: whether steps of unfolding had been run
+/// - `blank_of_steps_polished`: null where the blank is that of one step; else it is that of the
+///   steps, polished or not
+/// - `edge_restraint`, `rolling`: as in the script action set_process
+/// - `limits`, `limits_table`: as in the script action set_limits; the table given like the file of
+///   the part
+/// - `display`, `view`: as in the script actions set_display and set_view
+/// - `picks`: StoredPicks: numbers of the part's file and geometry; matrices column by column
+/// - `recovers`: only in an autosave: the project that it stands for
 namespace spia::viewer {
 
 inline constexpr std::string_view project_ending = ".spia";

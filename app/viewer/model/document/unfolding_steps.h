@@ -127,7 +127,8 @@ using StepsSoFar = std::function<void(StepsOutcome)>;
 StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                            std::optional<int> keep, const Progress& progress);
 
-/// Reads the steps of a file of the command line (engine/pipeline/files/unfold_file.h); never throws.
+/// Reads the steps of a file of the command line (engine/pipeline/files/unfold_file.h); never
+/// throws.
 /// @param bends as above
 StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                         const std::filesystem::path& file, const Progress& progress);

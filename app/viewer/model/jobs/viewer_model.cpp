@@ -115,7 +115,8 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
     state_.job.running = true;
     state_.job.title = std::move(title);
     ChainWishes wishes;
-    if (opening_beside_ ? opening_beside_->project : project_) // has the thickness that its user chose
+    // has the thickness that its user chose
+    if (opening_beside_ ? opening_beside_->project : project_)
         wishes.thickness = session.options.flatten.thickness;
     chain_job_ = std::make_unique<Job<ChainResult>>(
         [session = std::move(session), made_with = document.made_with, from, to, wishes = std::move(wishes),

@@ -198,7 +198,7 @@ static double room_for_legend(const ViewerState& state, View view, double around
     const bool of_sheet = view == View::part || view == View::blank;
     // names instead of numbers
     const double legend = of_sheet && document.display.field == Field::zone ? 122
-                          : view == View::quads                             ? 92 // its title is long
+                          : view == View::quads                             ? 92 // a long title
                                                                             : 72;
     const bool stepwise = view == View::part && (step_shown(state) || step_position(state) > 0);
     const bool coloured = view == View::part && shows_refused(state) ? false
