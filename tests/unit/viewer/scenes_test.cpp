@@ -78,8 +78,9 @@ TEST_F(Scenes, WithoutWhatTheyShowTheySayWhatToDo)
         early.job.running = true;
         early.job.title = "Unfolding step by step";
         for (const View view : {View::quads, View::surface})
-            if (const std::string words = scene(view, early, fresh).empty; now.blank && !words.empty())
+            if (const std::string words = scene(view, early, fresh).empty; now.blank && !words.empty()) {
                 EXPECT_TRUE(words.ends_with("Running now: Unfolding step by step.")) << words;
+            }
     }
 }
 
