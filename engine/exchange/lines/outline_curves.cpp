@@ -65,19 +65,28 @@ public:
         return std::abs(std::abs(turned) - 2 * pi) < degree;
     }
 
+    /// The ends of an arc that nearly closes say too little of its centre, and nothing if it does,
+    /// as a hole that touches the edge of the blank: it becomes two.
     void take_stated(const StatedPiece& stated)
     {
-        OutlinePiece piece{stated.kind, stated.first, stated.edges};
-        double turn = 0;
-        for (int k = 0; k < stated.edges; ++k) {
-            const Eigen::Vector2d a = at(stated.first + k) - stated.centre,
-                                  b = at(stated.first + k + 1) - stated.centre;
-            turn += std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+        for (int k = 0; k < stated.edges; ++k)
             taken_[size_t((stated.first + k) % count_)] = 1;
+        if (stated.kind != OutlinePiece::Kind::arc) {
+            found_.push_back({stated.kind, stated.first, stated.edges});
+            return;
         }
-        if (piece.kind == OutlinePiece::Kind::arc)
-            piece.bulge = std::tan(turn / 4);
-        found_.push_back(piece);
+        const double turn = turn_around(stated.centre, stated.first, stated.edges);
+        constexpr double open = 330 * degree; // its ends are half a radius apart
+        int half = stated.edges;
+        if (std::abs(turn) > open && stated.edges > 1)
+            for (half = 1; half + 1 < stated.edges &&
+                           std::abs(turn_around(stated.centre, stated.first, half)) < std::abs(turn) / 2;)
+                ++half;
+        const double first = turn_around(stated.centre, stated.first, half);
+        found_.push_back({stated.kind, stated.first, half, std::tan(first / 4)});
+        if (half < stated.edges)
+            found_.push_back(
+                {stated.kind, (stated.first + half) % count_, stated.edges - half, std::tan((turn - first) / 4)});
     }
 
     /// Lines that go on from one another become one, wherever in the loop.
@@ -146,6 +155,17 @@ public:
 
 private:
     Eigen::Vector2d at(int k) const { return loop_.col(k % count_); }
+
+    /// Radians, of a run of edges as seen from a point.
+    double turn_around(const Eigen::Vector2d& centre, int first, int edges) const
+    {
+        double turn = 0;
+        for (int k = first; k < first + edges; ++k) {
+            const Eigen::Vector2d a = at(k) - centre, b = at(k + 1) - centre;
+            turn += std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+        }
+        return turn;
+    }
 
     /// How many edges from one on are free.
     int free_from(int from) const

@@ -138,6 +138,31 @@ TEST(OutlineCurves, WhatIsStatedIsTakenHoweverFewChordsItHas)
     EXPECT_EQ(whole.radius, 12);
 }
 
+TEST(OutlineCurves, AHoleThatTouchesTheEdgeIsTwoArcsOfItsRadius)
+{
+    // The outline runs around the hole from the point where both touch, and back to it.
+    const double r = 4;
+    for (const int chords : {3, 4, 12, 31}) {
+        Points points = {{0, 0}, {0, 20}, {-30, 20}, {-30, -20}, {0, -20}};
+        Points hole;
+        add_arc(hole, {-r, 0}, r, 0, -2 * pi, chords);
+        points.insert(points.begin(), hole.begin(), hole.end());
+        const OutlineLoop loop = loop_of(points);
+        const OutlineCurves curves =
+            find_curves(loop, exact, within, std::vector<StatedPiece>{{Kind::arc, 0, chords, {-r, 0}, r}});
+        double turned = 0;
+        for (const OutlinePiece& piece : curves.pieces)
+            if (piece.kind == Kind::arc) {
+                const Eigen::Vector2d from = loop.col(piece.first),
+                                      to = loop.col((piece.first + piece.edges) % loop.cols());
+                EXPECT_NEAR((arc_centre(from, to, piece.bulge) - Eigen::Vector2d(-r, 0)).norm(), 0, 1e-9) << chords;
+                turned += 4 * std::atan(piece.bulge);
+            }
+        EXPECT_EQ(count_of(curves, Kind::arc), 2) << chords;
+        EXPECT_NEAR(turned, -2 * pi, 1e-12) << chords;
+    }
+}
+
 TEST(OutlineCurves, AnEllipseIsNoCircleUnlessTheToleranceSaysSo)
 {
     OutlineLoop ellipse = circle(12, 90);
