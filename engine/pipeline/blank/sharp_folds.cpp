@@ -30,6 +30,14 @@ std::vector<size_t> folds_of(const PartFile& part, const BendMap& map, const Bla
     return result;
 }
 
+/// Of the thickness: how much longer the outer leg of a sharp fold is than the inner one. Flats
+/// that lie on each other have no mitre; their legs end where the sheet does.
+double mitre(double angle)
+{
+    constexpr double on_each_other = 175 * std::numbers::pi / 180;
+    return angle < on_each_other ? std::tan(angle / 2) : 1;
+}
+
 /// Its faces, its direction and its middle on the part.
 void place_fold(const TriMesh& part, const BendMap& map, const Bend& fold, SheetBend& bend)
 {
@@ -83,7 +91,7 @@ void add_sharp_folds(const PartFile& part, const Blank& blank, BendTable& table)
         bend.up = map.bends[k].angle < 0; // the outer side, from which the blank is seen, bulges
                                           // where legs go down
         bend.k = laid_fibre(part, !bend.up);
-        bend.allowance = 2 * bend.k * table.thickness * std::tan(bend.angle / 2);
+        bend.allowance = 2 * bend.k * table.thickness * mitre(bend.angle);
         bend.deduction = bend_deduction(0, bend.angle, bend.allowance, table.thickness);
         place_fold(part.mesh, map, map.bends[k], bend);
         const std::string name = map.name(int(map.regions.size() + k));
