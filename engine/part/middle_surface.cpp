@@ -24,18 +24,20 @@ int cut_at(SheetSide skin, const std::vector<SunkHole>& holes, const std::vector
     return cut_off_at(holes, skin) + int(std::ranges::count_if(holes, in_bend) + std::ranges::count_if(open, above));
 }
 
-/// "2 countersinks are open at a border, a bend or another hole, the first at 1, 2, 3"
+/// "2 countersinks are open at a border, a bend or another hole, at 1, 2, 3; 4, 5, 6"
 std::string counted_open(const std::vector<OpenSink>& sinks)
 {
     const bool counterbores = std::ranges::all_of(sinks, &OpenSink::counterbore),
                countersinks = std::ranges::none_of(sinks, &OpenSink::counterbore);
     const int count = int(sinks.size());
-    const Eigen::Vector3d& place = sinks.front().place;
-    return fmt::format("{} open at a border, a bend or another hole, {}at {} mm",
+    std::vector<Eigen::Vector3d> places;
+    for (const OpenSink& sink : sinks)
+        places.push_back(sink.place);
+    return fmt::format("{} open at a border, a bend or another hole, at {} mm",
                        countersinks   ? counted(count, "countersink is", "countersinks are")
                        : counterbores ? counted(count, "counterbore is", "counterbores are")
                                       : counted(count, "sink is", "countersinks and counterbores are"),
-                       count > 1 ? "the first " : "", place_text(place));
+                       place_text(places));
 }
 
 } // namespace
@@ -78,11 +80,14 @@ MiddleSurface middle_surface(const TriMesh& solid, const ThinSolid& sheet, const
         const std::vector<int> done = holes_over_bends(skin, solid, from, units.surface);
         round_border(skin, solid, from, units.surface, done);
     }
-    if (const std::vector<const SunkHole*> wide = narrow_holes(skin, sunk); !wide.empty())
-        remarks.doubt(fmt::format("{} wide as what is sunk, the first at {} mm: triangles between its rim and what is "
+    std::vector<Eigen::Vector3d> wide;
+    for (const SunkHole* hole : narrow_holes(skin, sunk))
+        wide.push_back(hole->centre);
+    if (!wide.empty())
+        remarks.doubt(fmt::format("{} wide as what is sunk, at {} mm: triangles between its rim and what is "
                                   "beside it would turn over; draw the hole at its least diameter",
                                   counted(wide.size(), "sunk hole is laid flat as", "sunk holes are laid flat as"),
-                                  place_text(wide.front()->centre)));
+                                  place_text(wide)));
     if (exchanged) {
         skin.mesh.triangle.row(1).swap(skin.mesh.triangle.row(2));
         skin.side = SheetSide::inner;
