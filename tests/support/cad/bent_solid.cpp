@@ -112,10 +112,17 @@ TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const Cutout
     const double bottom = cutout.depth > 0 ? t / 2 - cutout.depth : -t;
     const gp_Vec along(std::cos(h), 0, std::sin(h)), out(-std::sin(h), 0, std::cos(h)), y(0, 1, 0);
     const gp_Vec turned = along * std::cos(cutout.turn) + y * std::sin(cutout.turn);
-    const gp_Pnt from = beside(profile, leg, s, bottom).Translated(y * cutout.centre.y());
-    const gp_Ax2 frame(from, gp_Dir(along.Crossed(y)), gp_Dir(turned));
+    const gp_Vec way = out + along * cutout.lean.x() + y * cutout.lean.y();
+    const gp_Pnt middle = beside(profile, leg, s, 0).Translated(y * cutout.centre.y());
+    if (cutout.lean.norm() > 0 && cutout.length == 2 * cutout.radius && cutout.width == cutout.length) { // drilled
+        const double reach = (t + cutout.radius * cutout.lean.norm()) * way.Magnitude();
+        return BRepPrimAPI_MakeCylinder(gp_Ax2(middle.Translated(gp_Vec(gp_Dir(way)) * -reach), gp_Dir(way)),
+                                        cutout.radius, 2 * reach)
+            .Shape();
+    }
+    const gp_Ax2 frame(middle.Translated(way * bottom), gp_Dir(along.Crossed(y)), gp_Dir(turned));
     return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline_of(cutout, frame), true).Face(),
-                                 out * (2 * t - bottom))
+                                 way * (2 * t - bottom))
         .Shape();
 }
 
@@ -273,14 +280,18 @@ TopoDS_Shape stamped(const TopoDS_Shape& shape, const BentSolid& solid, const Pr
 TopoDS_Shape with_broken_edges(const TopoDS_Shape& shape, const BentSolid& solid, const Profile& profile)
 {
     const BrokenEdges& broken = solid.broken;
-    const double side = (broken.left ? 1 : -1) * solid.thickness / 2;
+    std::vector<double> sides = {(broken.left ? 1 : -1) * solid.thickness / 2};
+    if (broken.both)
+        sides.push_back(-sides.front());
     const auto on_side = [&](const TopoDS_Shape& face) {
         const BRepAdaptor_Surface surface(TopoDS::Face(face));
         const gp_Pnt middle = surface.Value((surface.FirstUParameter() + surface.LastUParameter()) / 2,
                                             (surface.FirstVParameter() + surface.LastVParameter()) / 2);
         return std::ranges::any_of(profile.pieces(), [&](const Profile::Piece& piece) {
-            const gp_Pnt there = beside(profile, piece, (piece.from + piece.to) / 2, side);
-            return there.Translated(gp_Vec(0, solid.width / 2, 0)).Distance(middle) < 1e-6;
+            return std::ranges::any_of(sides, [&](double side) {
+                const gp_Pnt there = beside(profile, piece, (piece.from + piece.to) / 2, side);
+                return there.Translated(gp_Vec(0, solid.width / 2, 0)).Distance(middle) < 1e-6;
+            });
         });
     };
     TopTools_IndexedDataMapOfShapeListOfShape faces;

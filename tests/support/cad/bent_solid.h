@@ -24,6 +24,8 @@ struct Cutout {
     double turn = 0;                                  ///< radians, of its length against the leg
     double depth = 0;                                 ///< mm, of an engraving; 0: all through
     bool halves = false;                              ///< a circle in two edges
+    Eigen::Vector2d lean = Eigen::Vector2d::Zero();   ///< of its walls: mm along the leg and along y
+                                                      ///< per mm through the sheet, about its middle
 };
 
 /// A round hole through a leg that is wider at one side: a countersink or a counterbore.
@@ -74,11 +76,12 @@ struct BendCut {
     double pitch = 0;    ///< radians, likewise, across the bend
 };
 
-/// Edges of the border at one side of the sheet, all around it, chamfered or rounded.
+/// Edges of the border at one side of the sheet or both, all around it, chamfered or rounded.
 struct BrokenEdges {
     double size = 0;    ///< mm, of the chamfer's legs, or the radius; 0: they are sharp
     bool round = false; ///< else a chamfer of 45 degrees
     bool left = true;   ///< at that side
+    bool both = false;  ///< at the other side as well
 };
 
 /// A section of straight legs and bends between them, the same all along y.
@@ -126,7 +129,10 @@ BentSolid random_embossed_bracket(std::uint64_t seed);
 /// and holes
 void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord);
 
-enum class CadForm { step, brep, stl }; ///< stl: chords of 0.2 radians at most, within 0.05 mm
+/// iges: its faces only, as most programs write them; stl: chords of 0.2 radians at most, within
+/// 0.05 mm
+enum class CadForm { step, brep, iges, stl };
+const char* extension(CadForm form); ///< ".step"
 void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form = CadForm::step);
 
 } // namespace spia::shapes

@@ -2,6 +2,8 @@
 
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StlAPI_Writer.hxx>
 #include <stdexcept>
@@ -17,6 +19,17 @@ void write_stl(const std::filesystem::path& file, const TopoDS_Shape& shape, dou
         throw std::runtime_error("not written: " + file.string());
 }
 
+const char* extension(CadForm form)
+{
+    switch (form) {
+    case CadForm::brep: return ".brep";
+    case CadForm::iges: return ".igs";
+    case CadForm::stl: return ".stl";
+    case CadForm::step: break;
+    }
+    return ".step";
+}
+
 void write_solid(const std::filesystem::path& file, const TopoDS_Shape& shape, CadForm form)
 {
     if (form == CadForm::brep) {
@@ -26,6 +39,13 @@ void write_solid(const std::filesystem::path& file, const TopoDS_Shape& shape, C
     }
     if (form == CadForm::stl) {
         write_stl(file, shape, 0.05, 0.2);
+        return;
+    }
+    if (form == CadForm::iges) {
+        IGESControl_Controller::Init();
+        IGESControl_Writer writer("MM", 0);
+        if (!writer.AddShape(shape) || !writer.Write(file.c_str()))
+            throw std::runtime_error("not written: " + file.string());
         return;
     }
     STEPControl_Writer writer;

@@ -176,7 +176,7 @@ double off_hole(const BentSolid& solid, const TriMesh& part)
 void expect_hole(const ScratchFolder& folder, const BentSolid& solid, CadForm form)
 {
     SCOPED_TRACE(solid.kind + (form == CadForm::step ? ", STEP" : ", STL"));
-    const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+    const auto file = folder / (std::string("part") + extension(form));
     shapes::write_bent_solid(file, solid, form);
     const Session session = solved_part(file, {}, constant_k(k));
     const PartFile& part = *session.part;
@@ -324,7 +324,7 @@ TEST(SunkHoles, AreNoPlainHolesThroughBends)
         const BentSolid solid = drilled_bend(seed);
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
             SCOPED_TRACE(fmt::format("{}, {}", solid.kind, form == CadForm::stl ? "STL" : "STEP"));
-            const auto file = folder / (form == CadForm::stl ? "part.stl" : "part.step");
+            const auto file = folder / (std::string("part") + extension(form));
             shapes::write_bent_solid(file, solid, form);
             const PartFile part = read_part(file);
             ASSERT_TRUE(part.solid);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <string>
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
@@ -53,10 +54,7 @@ std::string describe(const BlankDrawing& drawing)
     return words;
 }
 
-fs::path file_of(const ScratchFolder& folder, CadForm form)
-{
-    return folder / (form == CadForm::stl ? "part.stl" : "part.step");
-}
+fs::path file_of(const ScratchFolder& folder, CadForm form) { return folder / (std::string("part") + extension(form)); }
 
 class DrawnBends : public testing::TestWithParam<std::uint64_t> {
 protected:

@@ -138,7 +138,7 @@ class StatedOutline : public testing::Test {
 protected:
     Session blank_of(const BentSolid& solid, const ReadOptions& read, shapes::CadForm form = shapes::CadForm::step)
     {
-        const fs::path file = folder_ / (form == shapes::CadForm::step ? "part.step" : "part.brep");
+        const fs::path file = folder_ / (std::string("part") + extension(form));
         write_bent_solid(file, solid, form);
         return blank_of(file, read);
     }

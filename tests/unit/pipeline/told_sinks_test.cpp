@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "engine/exchange/read_part.h"
 #include "tests/support/cad/bent_solid.h"
@@ -30,7 +31,7 @@ TEST(SunkHoles, InABendAreToldAndDoubted)
         sink.wide = 3.5;
         sink.left = false;
         solid.sink = {sink};
-        const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+        const auto file = folder / (std::string("part") + extension(form));
         shapes::write_bent_solid(file, solid, form);
         const PartFile part = read_part(file);
         ASSERT_TRUE(part.solid);
@@ -70,7 +71,7 @@ TEST(SunkHoles, OpenAtABorderAreToldAndWithoutAStraightWallDoubted)
                 sink.wide = 8;
                 sink.depth = land ? 1.5 : solid.thickness;
                 solid.sink = {sink};
-                const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+                const auto file = folder / (std::string("part") + extension(form));
                 shapes::write_bent_solid(file, solid, form);
                 const PartFile part = read_part(file);
                 ASSERT_TRUE(part.solid);
