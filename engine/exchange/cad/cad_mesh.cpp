@@ -3,7 +3,10 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
@@ -26,9 +29,42 @@
 namespace spia {
 namespace {
 
+/// The line along v that a curve is but for rounding; null if it is another.
+Handle(Geom2d_Curve) along_v(const Handle(Geom2d_Curve) & curve, double from, double to)
+{
+    const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve);
+    const auto line = Handle(Geom2d_Line)::DownCast(trimmed.IsNull() ? curve : trimmed->BasisCurve());
+    constexpr double rounding = 1e-9;
+    if (line.IsNull() || std::abs(line->Direction().X()) > rounding)
+        return {};
+    const double u = line->Value((from + to) / 2).X();
+    return new Geom2d_Line(gp_Pnt2d(u, line->Location().Y()), gp_Dir2d(0, line->Direction().Y() > 0 ? 1 : -1));
+}
+
+/// BRepMesh divides the seams of cones, but gives no triangles to one whose seam is askew in its
+/// last digit, as sewing of IGES faces leaves it.
+void straighten_seams(const TopoDS_Compound& shape)
+{
+    for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
+        for (TopExp_Explorer at(face.Current(), TopAbs_EDGE); at.More(); at.Next()) {
+            // of a reversed face both sides would change places
+            const TopoDS_Face of = TopoDS::Face(face.Current().Oriented(TopAbs_FORWARD));
+            const TopoDS_Edge edge = TopoDS::Edge(at.Current().Oriented(TopAbs_FORWARD));
+            if (!BRep_Tool::IsClosed(edge, of))
+                continue;
+            double from, to;
+            const auto one = along_v(BRep_Tool::CurveOnSurface(edge, of, from, to), from, to);
+            const auto other =
+                along_v(BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), of, from, to), from, to);
+            if (!one.IsNull() && !other.IsNull())
+                BRep_Builder().UpdateEdge(edge, one, other, of, BRep_Tool::Tolerance(edge));
+        }
+}
+
 void triangulate(const TopoDS_Compound& shape, double deflection, double angle, const Progress& progress)
 {
     BRepTools::Clean(shape); // a file may bring triangles of its own
+    straighten_seams(shape);
     IMeshTools_Parameters parameters;
     parameters.Deflection = deflection;
     parameters.Angle = angle;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/solid/round_edge.h"
@@ -182,15 +183,16 @@ void expect_area(const BentSolid& solid, const TriMesh& blank)
 
 void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm form)
 {
-    const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+    const auto file = folder / (std::string("part") + extension(form));
     shapes::write_bent_solid(file, solid, form);
     SCOPED_TRACE(file.extension().string());
     const Session session = solved_part(file);
     const PartFile& part = *session.part;
     ASSERT_TRUE(part.solid);
     EXPECT_EQ(part.solid->skin, Skin::middle);
-    // STL files hold single precision; vertices of chords lie on the circles.
-    const double same = form == CadForm::step ? 1e-6 : 1e-4;
+    // Circles of IGES files are splines within 1e-5 mm, STL files hold single precision; vertices of
+    // chords lie on the circles.
+    const double same = form == CadForm::stl ? 1e-4 : form == CadForm::iges ? 1e-5 : 1e-6;
     expect_area(solid, part.mesh);
     std::vector<double> holes, marks, expected_holes, expected_marks;
     const auto loops = boundary_loops(part.mesh);
@@ -252,7 +254,7 @@ TEST(SunkHoles, OfAnyAngleDepthAndSizeAreRightHoweverManyAreOnAFlat)
     // about the thickness.
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
-        for (const CadForm form : {CadForm::step, CadForm::stl}) {
+        for (const CadForm form : {CadForm::step, CadForm::iges, CadForm::stl}) {
             const BentSolid solid = random_mixed_sinks(seed);
             SCOPED_TRACE(solid.kind);
             expect_right(folder, solid, form);
@@ -270,7 +272,7 @@ TEST(SunkHoles, OfOneHoleAtBothSkinsAreCountedOnce)
             solid.sink.back().left = false;
             solid.sink.back().wide += alike ? 0 : 0.3;
             solid.sink.back().depth += alike ? 0 : 0.3;
-            const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+            const auto file = folder / (std::string("part") + extension(form));
             shapes::write_bent_solid(file, solid, form);
             const PartFile part = read_part(file);
             ASSERT_TRUE(part.solid);
@@ -324,7 +326,7 @@ TEST(SunkHoles, ThatABorderABendOrAnotherOneCutsOffAreTold)
                     SCOPED_TRACE(fmt::format("{:.3g} rad, {} side, {}, {}", half_angle, left ? "left" : "right", at_one,
                                              form == CadForm::step ? "STEP" : "STL"));
                     const BentSolid solid = bracket(centres, half_angle, left);
-                    const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+                    const auto file = folder / (std::string("part") + extension(form));
                     shapes::write_bent_solid(file, solid, form);
                     const Session session = solved_part(file);
                     const PartFile& part = *session.part;
@@ -379,7 +381,7 @@ TEST(SunkHoles, AreAtTheSkinOutsideOfTheBendHoweverMuchTheyTakeOfIt)
                 }
                 SCOPED_TRACE(fmt::format("seed {}, {}, sunk {}", seed, form == CadForm::step ? "STEP" : "STL",
                                          outside ? "outside" : "inside"));
-                const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+                const auto file = folder / (std::string("part") + extension(form));
                 shapes::write_bent_solid(file, solid, form);
                 const PartFile part = read_part(file);
                 const Finding* told = part.doctor.find(Fault::mark);
@@ -448,7 +450,7 @@ TEST(SunkHoles, ArePocketsAndRefusedWhereNothingRoundGoesThroughTheirMiddle)
         solid.width = 40;
         solid.thickness = 3;
         solid.cutout = cutout;
-        const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+        const auto file = folder / (std::string("part") + extension(form));
         shapes::write_bent_solid(file, solid, form);
         const PartFile part = examine_part(file);
         return part.doctor.healthy() && part.solid;
@@ -480,7 +482,7 @@ TEST(SunkHoles, AreNoneWherePlainHolesAre)
     round.radius = 4;
     solid.cutout = {round};
     for (const CadForm form : {CadForm::step, CadForm::stl}) {
-        const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+        const auto file = folder / (std::string("part") + extension(form));
         shapes::write_bent_solid(file, solid, form);
         const PartFile part = read_part(file);
         ASSERT_TRUE(part.solid);
