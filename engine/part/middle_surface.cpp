@@ -7,6 +7,7 @@
 #include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/mesh/solid/holes_over_bends.h"
+#include "engine/mesh/solid/move_in_flats.h"
 #include "engine/mesh/solid/onto_surfaces.h"
 #include "engine/mesh/solid/round_border.h"
 #include "engine/mesh/solid/sunk_holes.h"
@@ -80,6 +81,7 @@ MiddleSurface middle_surface(const TriMesh& solid, const ThinSolid& sheet, const
         const std::vector<int> done = holes_over_bends(skin, solid, from, units.surface);
         round_border(skin, solid, from, units.surface, done);
     }
+    settle_in_flats(skin);
     std::vector<Eigen::Vector3d> wide;
     for (const SunkHole* hole : narrow_holes(skin, sunk))
         wide.push_back(hole->centre);

@@ -68,13 +68,13 @@ struct SolidOrigin {
     int faces = 0, outer_faces = 0, inner_faces = 0; ///< CAD faces, else faces of the file; all and
                                                      ///< of the skins
     bool open = false;                               ///< faces are missing
-    std::vector<MarkLine> marks = {};                ///< outlines of marks that were passed over and
-                                                     ///< circles of sunk holes, on the surface that
-                                                     ///< was taken
-    SheetSide side = SheetSide::outer;               ///< the skin whose faces the mesh has
-    std::vector<StatedSurface> surface = {};         ///< per face of the file: the cylinder that was
-                                                     ///< measured on it; empty: none was, or a CAD file
-                                                     ///< states them
+    /// outlines of marks that were passed over and circles of sunk holes, on the surface that was
+    /// taken
+    std::vector<MarkLine> marks = {};
+    SheetSide side = SheetSide::outer; ///< the skin whose faces the mesh has
+    /// per face of the file: the cylinder that was measured on it; empty: none was, or a CAD file
+    /// states them
+    std::vector<StatedSurface> surface = {};
 };
 
 /// What a file holds, and what was done to it.
@@ -118,6 +118,11 @@ struct Remarks {
     {
         notes.push_back(text);
         doubts.push_back(std::move(text));
+    }
+    void add(const Remarks& more)
+    {
+        notes.insert(notes.end(), more.notes.begin(), more.notes.end());
+        doubts.insert(doubts.end(), more.doubts.begin(), more.doubts.end());
     }
 };
 

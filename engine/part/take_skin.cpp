@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/mesh/solid/mark_outlines.h"
 #include "engine/mesh/solid/measured_cylinders.h"
@@ -219,6 +220,27 @@ struct LaidSkin {
     Remarks remarks;
 };
 
+/// A doubt where the edge of the blank is beside its place by more than a speck of the thickness.
+Remarks on_straight_vertices(const SkinMesh& skin, double thickness)
+{
+    Remarks remarks;
+    if (skin.straightened.empty())
+        return remarks;
+    const StraightVertex& worst = *std::ranges::max_element(skin.straightened, {}, &StraightVertex::beside);
+    constexpr double speck = 0.01;
+    std::string text = fmt::format(
+        "{} not halfway along an edge that crosses the sheet askew but straight below the {} skin, for triangles not "
+        "to turn over: up to {:.2g} mm beside it, at {} mm",
+        counted(skin.straightened.size(), "vertex of the middle surface lies", "vertices of the middle surface lie"),
+        of_skin(skin.side), worst.beside(), place_text(worst.place));
+    if (worst.beside() <= speck * thickness)
+        remarks.notes.push_back(std::move(text));
+    else
+        remarks.doubt(text + "; the edge of the blank is as far off there: correct it by hand, or draw that edge "
+                             "square to the sheet");
+    return remarks;
+}
+
 /// Where none was asked for and there is no middle one the outer skin is better than nothing, and a
 /// doubt.
 LaidSkin laid_skin(const TriMesh& solid, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
@@ -233,13 +255,7 @@ LaidSkin laid_skin(const TriMesh& solid, const ThinSolid& sheet, const std::vect
             laid.remarks = std::move(middle.remarks);
         } else
             laid.skin = skin_of(solid, sheet, wanted, units);
-        if (laid.skin.straightened > 0)
-            laid.remarks.notes.push_back(
-                fmt::format("{} not halfway along an edge that crosses the sheet askew but straight below the {} skin, "
-                            "up to half a thickness beside it, for triangles not to turn over",
-                            counted(laid.skin.straightened, "vertex of the middle surface lies",
-                                    "vertices of the middle surface lie"),
-                            of_skin(laid.skin.side)));
+        laid.remarks.add(on_straight_vertices(laid.skin, sheet.thickness));
         return laid;
     } catch (const NotASheet& reason) {
         if (asked)

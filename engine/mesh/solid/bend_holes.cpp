@@ -107,7 +107,7 @@ std::optional<BendHole> hole_of(const MiddleOfSolid& part, const UnrolledBend& b
         return std::nullopt;
     constexpr double share = 0.005; // of the thickness; nearer the rim was met well enough
     const double off_by = share * part.sheet.thickness;
-    BendHole hole{*wall, loop, {}, std::move(rim), 0};
+    BendHole hole{*wall, loop, {}, std::move(rim)};
     bool elsewhere = false, over = false;
     for (const int v : loop) {
         const auto place = where_wall_meets(part, bend, *wall, part.outer(v));
@@ -115,7 +115,6 @@ std::optional<BendHole> hole_of(const MiddleOfSolid& part, const UnrolledBend& b
             return std::nullopt;
         const Eigen::Vector2d &now = bend.now[size_t(v)], &below = bend.triangles.at[size_t(v)];
         hole.to.push_back(*place);
-        hole.straight += (now - below).norm() <= part.within;
         elsewhere |= !((*place - now).norm() <= off_by);
         over |= bend.skin.zone(place->x()) == 0 || bend.skin.zone(below.x()) == 0;
     }

@@ -14,8 +14,6 @@ struct BendHole {
     std::vector<Eigen::Vector2d> to; ///< mm, per vertex of the rim: where the wall meets the middle
                                      ///< of the sheet
     std::vector<int> wall_triangles; ///< of the solid
-    int straight;                    ///< how many vertices of the rim went straight in from the
-                                     ///< outer skin
 };
 
 std::vector<BendHole> bend_holes(const MiddleOfSolid& part, const UnrolledBend& bend);

@@ -111,10 +111,8 @@ std::vector<int> holes_over_bends(SkinMesh& middle, const TriMesh& solid, const 
         if (!triangles)
             continue;
         put_in(middle, *bend, holes, *triangles);
-        for (const BendHole& hole : holes) {
-            middle.straightened = std::max(0, middle.straightened - hole.straight);
+        for (const BendHole& hole : holes)
             walls.insert(walls.end(), hole.wall_triangles.begin(), hole.wall_triangles.end());
-        }
     }
     std::ranges::sort(walls);
     return walls;

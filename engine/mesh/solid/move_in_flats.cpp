@@ -88,6 +88,17 @@ private:
     }
 };
 
+/// The one that is still about where it went; -1: none, a later step has put it elsewhere.
+int vertex_of(const SkinMesh& middle, const StraightVertex& straight)
+{
+    const auto [begin, end] = std::ranges::equal_range(middle.source_vertex, straight.source_vertex);
+    for (auto at = begin; at != end; ++at)
+        if (const auto v = at - middle.source_vertex.begin();
+            (middle.mesh.position.col(v) - straight.place).norm() < straight.beside() / 2)
+            return int(v);
+    return -1;
+}
+
 } // namespace
 
 std::vector<FlatMove> move_in_flats(SkinMesh& surface, const std::vector<FlatMove>& moves)
@@ -115,6 +126,27 @@ std::vector<FlatMove> move_in_flats(SkinMesh& surface, const std::vector<FlatMov
             surface.mesh.position.col(move.vertex) = move.to;
     }
     return not_made;
+}
+
+void settle_in_flats(SkinMesh& middle)
+{
+    const auto moved = [&](const StraightVertex& v) { return vertex_of(middle, v) < 0; };
+    std::erase_if(middle.straightened, moved);
+    const Eigen::Matrix3Xd normal = area_vectors(middle.mesh).colwise().normalized();
+    std::vector<Eigen::Vector3d> flat(size_t(middle.mesh.vertices()), Eigen::Vector3d::Zero());
+    for (int f = 0; f < middle.mesh.triangles(); ++f)
+        for (const int v : middle.mesh.triangle.col(f))
+            flat[size_t(v)] = normal.col(f);
+    const double tolerance = 1e-6 * bounding_diagonal(middle.mesh);
+    std::vector<FlatMove> moves;
+    for (const StraightVertex& straight : middle.straightened) {
+        const int v = vertex_of(middle, straight);
+        const Eigen::Vector3d &n = flat[size_t(v)], place = middle.mesh.position.col(v);
+        if (const double out = (straight.wanted - place).dot(n); straight.certain && std::abs(out) <= tolerance)
+            moves.push_back({v, straight.wanted - out * n, n});
+    }
+    move_in_flats(middle, moves);
+    std::erase_if(middle.straightened, moved);
 }
 
 } // namespace spia

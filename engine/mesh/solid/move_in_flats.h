@@ -17,4 +17,8 @@ struct FlatMove {
 /// @returns the moves that were not made
 std::vector<FlatMove> move_in_flats(SkinMesh& surface, const std::vector<FlatMove>& moves);
 
+/// Moves straightened vertices that are still where they went to where they are wanted, if that is
+/// certain and within their flat. What stays in `straightened` could not be moved.
+void settle_in_flats(SkinMesh& middle);
+
 } // namespace spia

@@ -14,6 +14,7 @@
 #include "engine/core/place_text.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/solid/flip_folds.h"
+#include "engine/mesh/solid/oblique_holes.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -105,6 +106,7 @@ struct MiddleSurface {
     std::vector<std::vector<int>> around; ///< faces of the solid at each of its vertices
     TriMesh inner;                        ///< the inner skin
     ClosestPointSearch nearest_inner;
+    std::vector<ObliqueHole> oblique;
     TriMesh rim;                                   ///< the faces across the thickness
     std::optional<ClosestPointSearch> nearest_rim; ///< none: there are none
 
@@ -116,6 +118,8 @@ struct MiddleSurface {
     /// there were none
     Eigen::Vector3d move(int v, bool to_rim = true) const
     {
+        if (const ObliqueHole* hole = to_rim ? oblique_at(v) : nullptr)
+            return hole->way;
         std::vector<int> skin, others;
         for (const int f : around[size_t(v)])
             (sheet.side[size_t(f)] == SheetSide::outer ? skin : others).push_back(f);
@@ -181,9 +185,26 @@ struct MiddleSurface {
         return (at_rim || sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
     }
 
-    /// Where a slanted wall meets one that is square to the sheet, a sink or a chamfer a border, and
-    /// ends before the middle of the sheet, or meets it there no longer, or at so flat an angle that
-    /// no move obeys both. The border stays: along it to the wall beyond a chamfer, or straight down.
+    /// The one whose rim has a vertex of the outer skin; null: none.
+    const ObliqueHole* oblique_at(int v) const
+    {
+        const auto hole = std::ranges::find_if(
+            oblique, [&](const ObliqueHole& each) { return std::ranges::binary_search(each.rim, v); });
+        return hole == oblique.end() ? nullptr : &*hole;
+    }
+
+    bool on_wall(const Eigen::Vector3d& place) const
+    {
+        constexpr double close = 1e-3; // of the thickness
+        return nearest_rim && nearest_rim->nearest(place, close * sheet.thickness).face >= 0;
+    }
+
+    /// Where a slanted wall meets one that is square to the sheet, a sink or a chamfer a border,
+    /// and
+    /// ends before the middle of the sheet, or meets it there no longer, or at so flat an angle
+    /// that
+    /// no move obeys both. The border stays: along it to the wall beyond a chamfer, or straight
+    /// down.
     /// @returns the way then; nothing if a move stays on both walls
     std::optional<Eigen::Vector3d> along_border(int v, const Eigen::Vector3d& moved, const Eigen::Vector3d& mean,
                                                 const std::vector<int>& others) const
@@ -319,25 +340,38 @@ struct MiddleSurface {
     }
 };
 
-/// Where triangles still turn over, vertices of slanted edges go straight in.
-/// @returns how many did
-int straighten_folds(const TriMesh& before, const MiddleSurface& middle, SkinMesh& result)
+/// Where triangles still turn over, vertices of slanted edges go straight in, those of an oblique
+/// hole together.
+void straighten_folds(const TriMesh& before, const MiddleSurface& middle, SkinMesh& result)
 {
     constexpr int rounds = 100; // each may bare a triangle beside it, as far as the rim of a hole
+    if (turned_over(before, result, middle.options).empty())
+        return;
     std::vector<char> straight(result.source_vertex.size(), 0);
+    const auto straighten = [&](int i) {
+        if (std::exchange(straight[size_t(i)], char(1)))
+            return false;
+        const int v = result.source_vertex[size_t(i)];
+        const Eigen::Vector3d was = result.mesh.position.col(i);
+        result.mesh.position.col(i) = before.position.col(i) + middle.move(v, false);
+        const Eigen::Vector3d place = result.mesh.position.col(i);
+        if (!middle.on_wall(place))
+            result.straightened.push_back({v, place, was, middle.oblique_at(v) || middle.on_wall(was)});
+        return true;
+    };
     for (int round = 0; round < rounds; ++round) {
         bool any = false;
         for (const int f : turned_over(before, result, middle.options))
-            for (const int i : before.triangle.col(f))
-                if (!std::exchange(straight[size_t(i)], char(1))) {
-                    result.mesh.position.col(i) =
-                        before.position.col(i) + middle.move(result.source_vertex[size_t(i)], false);
-                    any = true;
-                }
+            for (const int i : before.triangle.col(f)) {
+                any |= straighten(i);
+                if (const ObliqueHole* hole = middle.oblique_at(result.source_vertex[size_t(i)]))
+                    for (const int source : hole->rim)
+                        any |= straighten(
+                            int(std::ranges::lower_bound(result.source_vertex, source) - result.source_vertex.begin()));
+            }
         if (!any)
             break;
     }
-    return int(std::count(straight.begin(), straight.end(), 1));
 }
 
 /// @throws NotASheet if triangles turned over that have more than a speck of the area
@@ -397,13 +431,14 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
                                faces_around(solid),
                                std::move(inner),
                                std::move(nearest_inner),
+                               oblique_holes(solid, sheet, options.surface),
                                std::move(rim),
                                std::move(nearest_rim)};
     TriMesh before = result.mesh;
     parallel_for(int(result.source_vertex.size()),
                  [&](int i) { result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]); });
     flip_folds(before, result, options);
-    result.straightened = straighten_folds(before, middle, result);
+    straighten_folds(before, middle, result);
     require_unfolded(before, result, options);
     return result;
 }

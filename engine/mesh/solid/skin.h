@@ -11,6 +11,16 @@ enum class Skin { outer, inner, middle };
 const char* name(Skin skin);
 Skin skin_by_name(const std::string& name); ///< @throws InputError
 
+/// A vertex of a middle surface at a slanted edge that went straight in, for triangles not to turn
+/// over.
+struct StraightVertex {
+    int source_vertex;                                        ///< of the solid
+    Eigen::Vector3d place;                                    ///< mm, where it went
+    Eigen::Vector3d wanted;                                   ///< mm, where the faces at the edge would have it
+    bool certain;                                             ///< a wall crosses the middle of the sheet there
+    double beside() const { return (place - wanted).norm(); } ///< mm
+};
+
 /// One surface of a solid of sheet. Its triangles are seen from the outer side of the sheet,
 /// whichever it is.
 struct SkinMesh {
@@ -20,9 +30,7 @@ struct SkinMesh {
     SheetSide side = SheetSide::outer; ///< whose triangles they are: where CAD faces of them lie
     std::vector<int> source_face;      ///< per triangle that of the solid, ascending; repeats where
                                        ///< one was divided
-    /// vertices of a middle surface at slanted edges that went straight in, for triangles not to
-    /// turn over
-    int straightened = 0;
+    std::vector<StraightVertex> straightened;
 };
 
 /// The middle surface is the outer skin moved inwards by half the thickness: where the inner skin

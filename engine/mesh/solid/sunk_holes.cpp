@@ -275,12 +275,17 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
                 std::binary_search(hole.outer.begin(), hole.outer.end(), source))
                 middle.mesh.position.col(v) = solid.position.col(source) +
                                               (hole.skin == SheetSide::outer ? 1 : -1) * thickness / 2 * hole.inwards;
+    std::erase_if(middle.straightened, [&](const StraightVertex& vertex) { // belong there
+        return std::ranges::any_of(
+            holes, [&](const SunkHole& hole) { return std::ranges::binary_search(hole.outer, vertex.source_vertex); });
+    });
 }
 
 std::vector<const SunkHole*> narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
 {
     constexpr double rounding = 1e-12;
-    const std::vector<char> on_rim = edge_graph(middle.mesh).on_rim; // others may be called by one there
+    // others may be called by one there
+    const std::vector<char> on_rim = edge_graph(middle.mesh).on_rim;
     std::vector<FlatMove> moves;
     std::map<int, const SunkHole*> of_vertex;
     for (const SunkHole& hole : holes)

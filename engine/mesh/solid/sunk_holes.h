@@ -31,8 +31,9 @@ struct SunkHole {
     bool cut_off = false;               ///< there is not all of the circle: a bend, a border or
                                         ///< another hole is in it
     std::vector<MarkOutline> edge = {}; ///< what there is instead of it
-    bool stepped = false;               ///< neither one floor nor one slope leads from the circle to the hole:
-                                        ///< the depth is that of all steps
+    /// neither one floor nor one slope leads from the circle to the hole: the depth is that of all
+    /// steps
+    bool stepped = false;
 };
 
 /// Whole ones in the order of the triangles, then those that something cuts off.
