@@ -20,9 +20,11 @@ namespace {
 /// How many have no border of the hole at a skin, but their own.
 int cut_at(SheetSide skin, const std::vector<SunkHole>& holes, const std::vector<OpenSink>& open)
 {
-    const auto in_bend = [&](const SunkHole& hole) { return hole.diameter == 0 && hole.skin == skin; };
+    const auto apart = [&](const SunkHole& hole) {
+        return hole.skin == skin && (hole.diameter == 0 || hole.touching); // in a bend, or with no sheet beside it
+    };
     const auto above = [&](const OpenSink& sink) { return sink.land && sink.skin == skin; };
-    return cut_off_at(holes, skin) + int(std::ranges::count_if(holes, in_bend) + std::ranges::count_if(open, above));
+    return cut_off_at(holes, skin) + int(std::ranges::count_if(holes, apart) + std::ranges::count_if(open, above));
 }
 
 /// "2 countersinks are open at a border, a bend or another hole, at 1, 2, 3; 4, 5, 6"

@@ -117,6 +117,10 @@ std::vector<SunkHole> CutOffHoles::of(const RoundHole& hole) const
         each.centre = hole.mouth.centre;
         each.cut_off = false;
         each.edge.clear();
+        if (near == SheetSide::outer)
+            for (const auto& [v, next] : at_near.way)
+                if (each.outer.empty() || each.outer.back() != v)
+                    each.outer.push_back(v);
         measured(std::move(each), hole.mouth.radius, -height(highest));
     }
     if (least < hole.far - wider * t) {

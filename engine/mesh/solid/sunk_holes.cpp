@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -155,6 +156,25 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
     return hole;
 }
 
+/// The vertices of a skin at which its border meets itself.
+std::set<int> pinched_at(const TriMesh& solid, const ThinSolid& sheet, SheetSide side)
+{
+    std::map<int, int> edges;
+    const std::vector<EdgeUse> uses = edge_uses(solid.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        const auto of_skin = std::count_if(uses.begin() + std::ptrdiff_t(begin), uses.begin() + std::ptrdiff_t(end),
+                                           [&](const EdgeUse& use) { return sheet.side[size_t(use.face)] == side; });
+        if (of_skin == 1)
+            for (const int v : {uses[begin].low, uses[begin].high})
+                ++edges[v];
+    });
+    std::set<int> pinched;
+    for (const auto& [v, count] : edges)
+        if (count > 2)
+            pinched.insert(v);
+    return pinched;
+}
+
 /// The circle as a closed row of points.
 Eigen::Matrix3Xd circle_of(const SunkHole& hole, Skin surface, double thickness)
 {
@@ -187,6 +207,8 @@ std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
         hole.hole = number;
         holes.push_back(std::move(hole));
     };
+    const std::array<std::set<int>, 2> pinched{pinched_at(solid, sheet, SheetSide::inner),
+                                               pinched_at(solid, sheet, SheetSide::outer)};
     std::vector<std::vector<int>> others;
     for (Wall& wall : walls_of(solid, sheet)) {
         if (std::ranges::any_of(wall.face, [&](int f) { return cut_off[size_t(f)] != 0; }))
@@ -195,8 +217,12 @@ std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
             continue; // not through the sheet
         const size_t before = holes.size();
         for (const SheetSide side : {SheetSide::outer, SheetSide::inner})
-            if (auto hole = sunk(solid, normal, wall, side, sheet.thickness))
+            if (auto hole = sunk(solid, normal, wall, side, sheet.thickness)) {
+                const Edge& edge = side == SheetSide::outer ? wall.outer : wall.inner;
+                hole->touching = std::ranges::any_of(
+                    edge.vertex, [&](int v) { return pinched[side == SheetSide::outer].contains(v); });
                 add(*hole);
+            }
         if (holes.size() > before)
             ++number;
         else
@@ -284,12 +310,13 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
 std::vector<const SunkHole*> narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
 {
     constexpr double rounding = 1e-12;
+    const auto pulls_border = [](const SunkHole& hole) { return hole.touching && hole.skin == SheetSide::outer; };
     // others may be called by one there
     const std::vector<char> on_rim = edge_graph(middle.mesh).on_rim;
     std::vector<FlatMove> moves;
     std::map<int, const SunkHole*> of_vertex;
     for (const SunkHole& hole : holes)
-        for (int v = 0; v < middle.mesh.vertices() && hole.least > 0; ++v) {
+        for (int v = 0; v < middle.mesh.vertices() && hole.least > 0 && !pulls_border(hole); ++v) {
             if (!on_rim[size_t(v)] ||
                 !std::binary_search(hole.outer.begin(), hole.outer.end(), middle.source_vertex[size_t(v)]))
                 continue;
@@ -302,6 +329,9 @@ std::vector<const SunkHole*> narrow_holes(SkinMesh& middle, const std::vector<Su
             of_vertex[v] = &hole;
         }
     std::set<const SunkHole*> kept; // of one vector: in its order
+    for (const SunkHole& hole : holes)
+        if (pulls_border(hole))
+            kept.insert(&hole);
     for (const FlatMove& move : move_in_flats(middle, moves))
         kept.insert(of_vertex.at(move.vertex));
     return {kept.begin(), kept.end()};

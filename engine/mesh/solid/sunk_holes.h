@@ -34,6 +34,9 @@ struct SunkHole {
     /// neither one floor nor one slope leads from the circle to the hole: the depth is that of all
     /// steps
     bool stepped = false;
+    /// the circle touches a border, or another hole, in a point: there is no sheet between them at
+    /// that skin
+    bool touching = false;
 };
 
 /// Whole ones in the order of the triangles, then those that something cuts off.
