@@ -196,19 +196,28 @@ private:
             place = start(v) + nearest * (place - start(v));
     }
 
+    /// mm, where the faces at a vertex have it, also if it went straight in.
+    Eigen::Vector3d wanted(size_t v) const
+    {
+        const auto straight =
+            std::ranges::find(middle_.straightened, middle_.source_vertex[v], &StraightVertex::source_vertex);
+        return straight == middle_.straightened.end() ? Eigen::Vector3d(middle_.mesh.position.col(Eigen::Index(v)))
+                                                      : straight->wanted;
+    }
+
     /// Where the middle surface ends at a wall that begins behind a chamfer.
     /// @returns the way out of the sheet, unit, and how far that is, mm; nothing where it ends at
     /// the wall that the vertex is at
     std::optional<std::pair<Eigen::RowVector3d, double>> beyond_chamfer(size_t v) const
     {
-        constexpr double square = 0.02, least = 1e-3, most = 0.9; // sine of 1 degree; of the thickness;
-                                                                  // of the way along the chamfer
+        // sine of 1 degree; of the thickness; of the way along the chamfer
+        constexpr double square = 0.02, least = 1e-3, most = 0.9;
         const Eigen::Vector3d wall = wall_.col(middle_.source_vertex[v]).normalized(), &out = around_[v].out;
         const double lean = wall.dot(out), flat = std::sqrt(1 - lean * lean);
         if (lean < square || flat < square)
             return std::nullopt;
         const Eigen::Vector3d way = (wall - lean * out) / flat;
-        const double far = way.dot(middle_.mesh.position.col(Eigen::Index(v)) - start(v));
+        const double far = way.dot(wanted(v) - start(v));
         if (far < least * sheet_.thickness || far > most * sheet_.thickness / 2 * lean / flat)
             return std::nullopt;
         return std::pair(Eigen::RowVector3d(way.transpose()), far);

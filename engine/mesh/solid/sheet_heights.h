@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
@@ -17,11 +18,24 @@ public:
     /// is not looked
     template <class Counts>
     SheetHeights(const TriMesh& mesh, const Counts& other_skin, double within)
-        : position_(mesh.position), search_(part_of(mesh, other_skin)), within_(within),
+        : position_(mesh.position), other_(part_of(mesh, other_skin)), search_(other_), within_(within),
           known_(size_t(mesh.vertices()), -1)
     {
     }
     ClosestPoint nearest(int v) const { return search_.nearest(position_.col(v), within_); }
+    /// mm, of a vertex of plane skin with this normal, unit: where the other skin is plane below it and
+    /// has a hole opposite, its nearest place is the rim of that, askew; then square to the skin.
+    double square_to(int v, const Eigen::Vector3d& normal)
+    {
+        constexpr double parallel = 1 - 1e-6; // 0.1 degrees
+        const ClosestPoint near = nearest(v);
+        if (near.face < 0)
+            return within_;
+        const auto corner = [&](int k) { return other_.position.col(other_.triangle(k, near.face)); };
+        const Eigen::Vector3d below = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+        return std::abs(below.dot(normal)) > parallel ? std::abs((position_.col(v) - near.position).dot(normal))
+                                                      : (*this)(v);
+    }
     double operator()(int v)
     {
         if (known_[size_t(v)] < 0)
@@ -40,6 +54,7 @@ private:
     }
 
     const Eigen::Matrix3Xd& position_;
+    TriMesh other_;
     ClosestPointSearch search_;
     double within_; ///< mm
     std::vector<double> known_;

@@ -93,7 +93,7 @@ void take_out_floors(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const 
         std::vector<double> most(size_t(pieces.count()), 0), sum(size_t(pieces.count()), 0);
         for (int f = 0; f < mesh.triangles(); ++f)
             for (int k = 0; k < 3 && of_skin(piece(f)) && perhaps[size_t(piece(f))]; ++k) {
-                const double above = height(mesh.triangle(k, f)) - thickness;
+                const double above = height.square_to(mesh.triangle(k, f), normal.col(f).normalized()) - thickness;
                 most[size_t(piece(f))] = std::max(most[size_t(piece(f))], std::abs(above));
                 sum[size_t(piece(f))] += above * normal.col(f).norm() / 3;
             }
@@ -185,7 +185,9 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
     std::vector<double> off(size_t(pieces.count()), 0), raised(size_t(pieces.count()), 0);
     for (int f = 0; f < mesh.triangles(); ++f)
         for (int k = 0; k < 3 && level[piece(f)]; ++k) {
-            const double above = height(mesh.triangle(k, f)) - thickness;
+            const int v = mesh.triangle(k, f);
+            const bool wall = side[piece(f)] != skin;
+            const double above = (wall ? height(v) : height.square_to(v, normal.col(f).normalized())) - thickness;
             off[piece(f)] = std::max(off[piece(f)], std::abs(above));
             raised[piece(f)] += above * normal.col(f).norm();
             level[piece(f)] = off[piece(f)] <= (deepest_mark + chords_off_bends) * thickness;
@@ -197,18 +199,24 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
             together.join(c.a, c.b);
     struct Group {
         double along_skin = 0, along_rim = 0, smoothly = 0; ///< mm; the last one of the first
-        /// off: some vertex is not one of the skin, and can be moved to it
+        /// off: some vertex is not one of the skin, and can be moved to it; floor: a triangle that looks
+        /// as the skin does has one that is not at the rim either, as none of a chamfer has
         bool floor = false, off = false;
     };
     std::map<int, Group> groups;
-    for (int p = 0; p < pieces.count(); ++p)
-        if (level[size_t(p)])
-            groups[together.root(p)].floor |= side[size_t(p)] == skin;
     const SkinAt skin_at =
         skin_at_vertices(mesh, normal, [&](int f) { return main[piece(f)] && side[piece(f)] == skin; });
+    std::vector<char> at_rim(size_t(mesh.vertices()), 0);
     for (int f = 0; f < mesh.triangles(); ++f)
-        for (int k = 0; k < 3 && level[piece(f)]; ++k)
-            groups[together.root(pieces.piece[size_t(f)])].off |= !skin_at.has(mesh.triangle(k, f));
+        for (int k = 0; k < 3 && !level[piece(f)] && !(main[piece(f)] && side[piece(f)] == skin); ++k)
+            at_rim[size_t(mesh.triangle(k, f))] = 1;
+    for (int f = 0; f < mesh.triangles(); ++f)
+        for (int k = 0; k < 3 && level[piece(f)]; ++k) {
+            const int v = mesh.triangle(k, f);
+            Group& group = groups[together.root(pieces.piece[size_t(f)])];
+            group.off |= !skin_at.has(v);
+            group.floor |= side[piece(f)] == skin && !skin_at.has(v) && !at_rim[size_t(v)];
+        }
     for (const PieceContact& c : pieces.contact)
         for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
             if (level[size_t(p)] && !level[size_t(q)]) {

@@ -1,6 +1,10 @@
-// Sheet whose border is chamfered or rounded at one side: what is laid flat ends at its walls.
+// Sheet whose border is chamfered or rounded: what is laid flat ends at its walls.
+#include <algorithm>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
+#include <numbers>
+#include <string>
 
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/flat_area.h"
@@ -35,6 +39,43 @@ BentSolid random_broken_edges(std::uint64_t seed)
     return solid;
 }
 
+/// Chamfered at both sides, with holes sunk from both sides in the legs, plain ones beside them.
+BentSolid random_with_sinks(std::uint64_t seed)
+{
+    shapes::SeededRandom random(seed + 13000);
+    BentSolid solid = random_broken_edges(seed + 200);
+    solid.broken.round = false;
+    solid.broken.both = true;
+    const double t = solid.thickness;
+    solid.kind = fmt::format("sinks behind chamfers {}", seed);
+    for (int leg = 0; leg < int(solid.leg.size()); ++leg)
+        for (int k = random.whole(1, 3); k > 0; --k) {
+            const double cell = solid.width / 3, room = std::min(solid.leg[size_t(leg)] / 2, cell / 2);
+            const Eigen::Vector2d centre(solid.leg[size_t(leg)] / 2, (k - 0.5) * cell);
+            const double hole = room * random.between(0.2, 0.45);
+            if (random.whole(0, 3) == 0) {
+                shapes::Cutout plain;
+                plain.leg = leg;
+                plain.centre = centre;
+                plain.length = plain.width = 2 * hole;
+                plain.radius = hole;
+                solid.cutout.push_back(plain);
+                continue;
+            }
+            shapes::Sink sink;
+            sink.leg = leg;
+            sink.centre = centre;
+            sink.hole = hole;
+            sink.counterbore = random.coin();
+            sink.left = random.coin();
+            sink.depth = random.between(0.3, 0.6) * t; // shallower wide ones are marks
+            sink.wide = hole + random.between(0.3, 0.9) * std::min(0.9 * room - hole, sink.depth);
+            sink.above = 0.1 * t;
+            solid.sink.push_back(sink);
+        }
+    return solid;
+}
+
 } // namespace
 
 TEST(BrokenEdges, DoNotMoveTheBorder)
@@ -44,20 +85,48 @@ TEST(BrokenEdges, DoNotMoveTheBorder)
         const BentSolid solid = random_broken_edges(seed);
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
             if (form == CadForm::stl && solid.broken.round)
-                continue; // facets of a rounding go on from the skin: its outer skin is laid, which is a doubt
+                // facets of a rounding go on from the skin: its outer skin is laid, which is a
+                // doubt
+                continue;
             SCOPED_TRACE(fmt::format("{}, {}", solid.kind, form == CadForm::stl ? "STL" : "STEP"));
-            const auto file = folder / (form == CadForm::stl ? "part.stl" : "part.step");
+            const auto file = folder / (std::string("part") + extension(form));
             shapes::write_bent_solid(file, solid, form);
             const Session session = solved_part(file);
             ASSERT_TRUE(session.part->solid);
             const Eigen::Matrix2Xd& X = session.blank->blank.position;
             const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff(),
                                   made(solid.developed(0.5), solid.width);
-            const double within = form == CadForm::stl ? 2e-3 : 1e-4; // single precision, bends of chords
+            // single precision, bends of chords
+            const double within = form == CadForm::stl ? 2e-3 : 1e-4;
             EXPECT_NEAR(size.minCoeff(), made.minCoeff(), within);
             EXPECT_NEAR(size.maxCoeff(), made.maxCoeff(), within);
             EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle) / made.prod(), 1, within / 10);
         }
+    }
+}
+
+TEST(BrokenEdges, BesideSunkHolesDoNotMoveTheBorder)
+{
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const BentSolid solid = random_with_sinks(seed);
+        SCOPED_TRACE(solid.kind);
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        ASSERT_TRUE(session.part->solid);
+        EXPECT_TRUE(session.part->doubts.empty()) << fmt::format("{}", fmt::join(session.part->doubts, "\n"));
+        const Eigen::Matrix2Xd& X = session.blank->blank.position;
+        const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff(),
+                              made(solid.developed(0.5), solid.width);
+        EXPECT_NEAR(size.minCoeff(), made.minCoeff(), 1e-4);
+        EXPECT_NEAR(size.maxCoeff(), made.maxCoeff(), 1e-4);
+        double holes = 0;
+        for (const shapes::Sink& sink : solid.sink)
+            holes += std::numbers::pi * sink.hole * sink.hole;
+        for (const shapes::Cutout& hole : solid.cutout)
+            holes += std::numbers::pi * hole.radius * hole.radius;
+        // chords of up to 0.2 radians take 0.7 % of a hole
+        EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle), made.prod() - holes, 0.01 * holes);
     }
 }
 
