@@ -78,7 +78,7 @@ void triangulate(const TopoDS_Compound& shape, double deflection, double angle, 
 /// damaged faces.
 Handle(Poly_Triangulation) sound_triangles(const TopoDS_Face& face, TopLoc_Location& place)
 {
-    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
+    Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
     if (triangles.IsNull())
         return triangles;
     for (int k = 1; k <= triangles->NbNodes(); ++k) {

@@ -91,7 +91,7 @@ public:
 
     /// Lines that go on from one another become one, wherever in the loop.
     /// @param pieces  all of them, in order
-    std::vector<OutlinePiece> joined(std::vector<OutlinePiece> pieces, double exact) const
+    std::vector<OutlinePiece> joined(const std::vector<OutlinePiece>& pieces, double exact) const
     {
         std::vector<OutlinePiece> result;
         const auto goes_on = [&](const OutlinePiece& a, const OutlinePiece& b) {
@@ -242,6 +242,7 @@ private:
         const Eigen::Vector2d centre = arc_centre(a, b, bulge);
         const double radius = (a - centre).norm();
         std::vector<double> chords;
+        chords.reserve(size_t(edges));
         for (int k = 0; k < edges; ++k)
             chords.push_back((at(from + k + 1) - at(from + k)).norm());
         const double longest_chord = *std::max_element(chords.begin(), chords.end());
