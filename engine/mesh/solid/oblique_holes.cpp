@@ -134,6 +134,18 @@ std::optional<Eigen::Vector3d> between_vertices(const Polygon& from, const Polyg
     return std::nullopt;
 }
 
+/// Whether a wall is straight in a direction, but for facets whose corners are not opposite to each
+/// other.
+bool leads_along(const TriMesh& solid, const Wall& wall, const Eigen::Vector3d& way)
+{
+    constexpr double most = 0.3; // sine
+    return std::ranges::all_of(wall.face, [&](int f) {
+        const auto corner = [&](int k) { return solid.position.col(solid.triangle(k, f)); };
+        const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+        return std::abs(normal.dot(way)) <= most * normal.norm() * way.norm();
+    });
+}
+
 /// Of the wall of an oblique hole in a flat; nothing if it is none.
 std::optional<ObliqueHole> oblique_hole(const TriMesh& solid, const ThinSolid& sheet, const Wall& wall,
                                         const std::vector<StatedSurface>& surface)
@@ -155,6 +167,10 @@ std::optional<ObliqueHole> oblique_hole(const TriMesh& solid, const ThinSolid& s
         way = through / cylinder->direction.dot(from.normal) * cylinder->direction;
     else if (const auto exact = between_vertices(from, to, same * t))
         way = *exact;
+    else if (through * sheet.flipped > 0)
+        return std::nullopt; // the border of the sheet: chamfered along one side it has another middle
+    if (!leads_along(solid, wall, way))
+        return std::nullopt; // chamfers, which may make both edges alike
     const double close = alike * std::sqrt(from.area / 3);
     if (!std::ranges::all_of(from.point, [&](const auto& p) { return distance_from(to, p + way) <= close; }))
         return std::nullopt;

@@ -298,10 +298,12 @@ TopoDS_Shape with_broken_edges(const TopoDS_Shape& shape, const BentSolid& solid
     TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
     BRepFilletAPI_MakeChamfer chamfer(shape);
     BRepFilletAPI_MakeFillet fillet(shape);
-    for (int i = 1; i <= faces.Extent(); ++i) {
+    int left = broken.edges > 0 ? broken.edges : faces.Extent();
+    for (int i = 1; i <= faces.Extent() && left > 0; ++i) {
         const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
         if (on_side(faces(i).First()) == on_side(faces(i).Last()))
             continue;
+        --left;
         if (broken.round)
             fillet.Add(broken.size, edge);
         else

@@ -82,6 +82,7 @@ struct BrokenEdges {
     bool round = false; ///< else a chamfer of 45 degrees
     bool left = true;   ///< at that side
     bool both = false;  ///< at the other side as well
+    int edges = 0;      ///< only so many of them; 0: all
 };
 
 /// A section of straight legs and bends between them, the same all along y.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/mesh/topology.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
@@ -127,6 +128,45 @@ TEST(BrokenEdges, BesideSunkHolesDoNotMoveTheBorder)
             holes += std::numbers::pi * hole.radius * hole.radius;
         // chords of up to 0.2 radians take 0.7 % of a hole
         EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle), made.prod() - holes, 0.01 * holes);
+    }
+}
+
+TEST(BrokenEdges, OfOneSideDoNotMoveWhatIsBesideThem)
+{
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        shapes::SeededRandom random(seed + 15000);
+        BentSolid solid;
+        solid.thickness = random.between(1, 4);
+        solid.leg = {random.between(60, 100)};
+        solid.width = random.between(30, 50);
+        solid.pose = seed;
+        solid.broken.size = solid.thickness * random.between(0.05, 0.3);
+        solid.broken.left = random.coin();
+        solid.broken.edges = random.whole(1, 3);
+        shapes::Cutout hole;
+        hole.centre = {random.between(10, 25), random.between(8, 13)};
+        hole.length = hole.width = 6;
+        hole.radius = 3;
+        solid.cutout = {hole};
+        for (const CadForm form : {CadForm::step, CadForm::stl}) {
+            SCOPED_TRACE(fmt::format("one side broken {}{}", seed, extension(form)));
+            const auto file = folder / (std::string("part") + extension(form));
+            shapes::write_bent_solid(file, solid, form);
+            const Session session = solved_part(file);
+            const Eigen::Matrix2Xd& X = session.blank->blank.position;
+            const Eigen::Vector2d low = X.rowwise().minCoeff(), size = X.rowwise().maxCoeff() - low;
+            EXPECT_NEAR(size.minCoeff(), solid.width, 2e-3);
+            EXPECT_NEAR(size.maxCoeff(), solid.leg[0], 2e-3);
+            ASSERT_EQ(session.blank->blank.position.cols(), session.part->mesh.vertices());
+            const auto loops = boundary_loops(session.part->mesh);
+            ASSERT_EQ(loops.size(), 2u);
+            const Eigen::Matrix2Xd rim = X(Eigen::all, loops[1]); // the longest comes first
+            const Eigen::Vector2d middle = (rim.rowwise().maxCoeff() + rim.rowwise().minCoeff()) / 2 - low;
+            // from the nearer borders, whichever way the blank is turned
+            EXPECT_NEAR(std::min(middle.x(), size.x() - middle.x()), hole.centre.x(), 0.02);
+            EXPECT_NEAR(std::min(middle.y(), size.y() - middle.y()), hole.centre.y(), 0.02);
+        }
     }
 }
 

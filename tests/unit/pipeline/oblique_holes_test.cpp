@@ -39,7 +39,8 @@ BentSolid random_oblique_holes(std::uint64_t seed)
     const int count = random.whole(1, 6);
     for (int k = 0; k < count; ++k) {
         Cutout hole;
-        hole.centre = {(k % 3 + 0.5) * cell, (k / 3 + 0.5) * cell};
+        const int row = k / 3;
+        hole.centre = {(k % 3 + 0.5) * cell, (row + 0.5) * cell};
         const int kind = random.whole(0, 3);
         hole.width = t * random.between(0.8, 2.5);
         hole.length = kind < 2 ? hole.width : hole.width * random.between(1.2, 2);
@@ -58,7 +59,7 @@ TEST(ObliqueHoles, AreInTheBlankAsInTheMiddleOfTheSheet)
 {
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 24; ++seed)
-        for (const CadForm form : {CadForm::step, CadForm::iges, CadForm::stl}) {
+        for (const CadForm form : {CadForm::step, CadForm::stl}) {
             const BentSolid solid = random_oblique_holes(seed);
             const auto step = folder / "part.step", file = folder / (std::string("part") + extension(form));
             SCOPED_TRACE(solid.kind + extension(form));
