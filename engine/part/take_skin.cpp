@@ -233,7 +233,8 @@ Remarks on_straight_vertices(const SkinMesh& skin, double thickness)
         "to turn over: up to {:.2g} mm beside it, at {} mm",
         counted(skin.straightened.size(), "vertex of the middle surface lies", "vertices of the middle surface lie"),
         of_skin(skin.side), worst.beside(), place_text(worst.place));
-    if (worst.beside() <= speck * thickness)
+    const auto off = [&](const StraightVertex& v) { return v.certain && v.beside() > speck * thickness; };
+    if (std::ranges::none_of(skin.straightened, off))
         remarks.notes.push_back(std::move(text));
     else
         remarks.doubt(text + "; the edge of the blank is as far off there: correct it by hand, or draw that edge "

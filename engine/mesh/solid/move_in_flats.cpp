@@ -91,9 +91,10 @@ private:
 /// The one that is still about where it went; -1: none, a later step has put it elsewhere.
 int vertex_of(const SkinMesh& middle, const StraightVertex& straight)
 {
-    const auto [begin, end] = std::ranges::equal_range(middle.source_vertex, straight.source_vertex);
+    const std::vector<int>& source = middle.source_vertex;
+    const auto [begin, end] = std::equal_range(source.begin(), source.end(), straight.source_vertex);
     for (auto at = begin; at != end; ++at)
-        if (const auto v = at - middle.source_vertex.begin();
+        if (const auto v = at - source.begin();
             (middle.mesh.position.col(v) - straight.place).norm() < straight.beside() / 2)
             return int(v);
     return -1;
@@ -134,15 +135,20 @@ void settle_in_flats(SkinMesh& middle)
     std::erase_if(middle.straightened, moved);
     const Eigen::Matrix3Xd normal = area_vectors(middle.mesh).colwise().normalized();
     std::vector<Eigen::Vector3d> flat(size_t(middle.mesh.vertices()), Eigen::Vector3d::Zero());
+    std::vector<char> bent(size_t(middle.mesh.vertices()), 0); // those beside a flat would turn over
+    constexpr double parallel = 1 - 1e-6;                      // 0.1 degrees
     for (int f = 0; f < middle.mesh.triangles(); ++f)
-        for (const int v : middle.mesh.triangle.col(f))
+        for (const int v : middle.mesh.triangle.col(f)) {
+            bent[size_t(v)] |= !flat[size_t(v)].isZero() && flat[size_t(v)].dot(normal.col(f)) < parallel;
             flat[size_t(v)] = normal.col(f);
+        }
     const double tolerance = 1e-6 * bounding_diagonal(middle.mesh);
     std::vector<FlatMove> moves;
     for (const StraightVertex& straight : middle.straightened) {
         const int v = vertex_of(middle, straight);
         const Eigen::Vector3d &n = flat[size_t(v)], place = middle.mesh.position.col(v);
-        if (const double out = (straight.wanted - place).dot(n); straight.certain && std::abs(out) <= tolerance)
+        if (const double out = (straight.wanted - place).dot(n);
+            straight.certain && !bent[size_t(v)] && std::abs(out) <= tolerance)
             moves.push_back({v, straight.wanted - out * n, n});
     }
     move_in_flats(middle, moves);

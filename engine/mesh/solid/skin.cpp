@@ -75,7 +75,8 @@ public:
     /// vertex out of it
     Eigen::Vector3d move(bool first) const
     {
-        const Eigen::Vector3d n = first ? normal_[0] : Eigen::Vector3d::Zero(), start = n * move_[0];
+        const Eigen::Vector3d n = first ? normal_[0] : Eigen::Vector3d::Zero();
+        Eigen::Vector3d start = n * move_[0];
         const auto rows = Eigen::Index(normal_.size()) - (first ? 1 : 0);
         if (rows == 0)
             return start;
@@ -231,7 +232,7 @@ struct MiddleSurface {
         };
         if (on_border(moved) && distance_from_slanted(solid.position.col(v) + moved, mean) <= beside * sheet.thickness)
             return std::nullopt;
-        if (const auto place = beyond_chamfer(v, mean, others);
+        if (auto place = beyond_chamfer(v, mean, others);
             place && on_border(*place) && (*place - place->dot(mean) * mean).norm() <= reach)
             return place;
         return planes.move(true);
