@@ -34,6 +34,7 @@ std::string counted_open(const std::vector<OpenSink>& sinks)
                countersinks = std::ranges::none_of(sinks, &OpenSink::counterbore);
     const int count = int(sinks.size());
     std::vector<Eigen::Vector3d> places;
+    places.reserve(sinks.size());
     for (const OpenSink& sink : sinks)
         places.push_back(sink.place);
     return fmt::format("{} open at a border, a bend or another hole, at {} mm",

@@ -147,7 +147,7 @@ std::vector<RoundEdge> CutOffHoles::sharp_circles(const std::vector<int>& wall) 
             ends.insert(ends.end(), {edges.back().first, edges.back().second});
         }
     std::ranges::sort(ends);
-    ends.erase(std::ranges::unique(ends).begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     const auto number = [&](int v) { return int(std::ranges::lower_bound(ends, v) - ends.begin()); };
     DisjointSets together(ends.size());
     for (const auto& [a, b] : edges)

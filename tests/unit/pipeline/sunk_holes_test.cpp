@@ -129,7 +129,8 @@ BentSolid random_mixed_sinks(std::uint64_t seed)
     const int count = random.whole(1, 6);
     for (int i = 0; i < count; ++i) {
         Sink sink;
-        sink.centre = {(i % 3 + random.between(0.48, 0.52)) * cell, (i / 3 + random.between(0.48, 0.52)) * cell};
+        const int row = i / 3;
+        sink.centre = {(i % 3 + random.between(0.48, 0.52)) * cell, (row + random.between(0.48, 0.52)) * cell};
         sink.left = random.coin();
         sink.hole = hundredths(random.between(0.25, 3) * t);
         sink.counterbore = random.whole(0, 6) == 0;
@@ -295,7 +296,7 @@ TEST(SunkHoles, OfOneHoleAtBothSkinsAreCountedOnce)
 TEST(SunkHoles, ThatABorderABendOrAnotherOneCutsOffAreTold)
 {
     const ScratchFolder folder;
-    const auto bracket = [](std::vector<Eigen::Vector2d> centres, double half_angle, bool left) {
+    const auto bracket = [](const std::vector<Eigen::Vector2d>& centres, double half_angle, bool left) {
         BentSolid solid;
         solid.thickness = 2;
         solid.width = 50;
