@@ -107,7 +107,7 @@ struct MiddleSurface {
     std::vector<std::vector<int>> around; ///< faces of the solid at each of its vertices
     TriMesh inner;                        ///< the inner skin
     ClosestPointSearch nearest_inner;
-    std::vector<ObliqueHole> oblique;
+    std::vector<ObliqueHole> oblique;              ///< whose rims go along their walls
     TriMesh rim;                                   ///< the faces across the thickness
     std::optional<ClosestPointSearch> nearest_rim; ///< none: there are none
 

@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
-#include <numbers>
 #include <string>
 
 #include "engine/mesh/topology.h"
@@ -12,6 +11,7 @@
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solid_size.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
@@ -82,16 +82,10 @@ void expect_least_diameters(const ScratchFolder& folder, const BentSolid& solid,
     EXPECT_TRUE(part.doubts.empty()) << fmt::format("{}", fmt::join(part.doubts, "\n"));
     EXPECT_EQ(boundary_loops(part.mesh).size(), 1 + holes);
     const Eigen::Matrix2Xd& X = session.blank->blank.position;
-    const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff(),
-                          made(solid.developed(0.5), solid.width);
-    const double within = form == CadForm::stl ? 2e-3 : 1e-4;
-    EXPECT_NEAR(size.minCoeff(), made.minCoeff(), within);
-    EXPECT_NEAR(size.maxCoeff(), made.maxCoeff(), within);
+    expect_developed_size(session, solid, size_within(form));
     // chords of up to 0.2 radians take 0.7 % of a hole
-    EXPECT_NEAR(shapes::flat_area(X, part.mesh.triangle), made.prod() - cut, 0.01 * cut);
+    EXPECT_NEAR(shapes::flat_area(X, part.mesh.triangle), developed_area(solid) - cut, 0.01 * cut);
 }
-
-double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
 } // namespace
 
@@ -101,7 +95,8 @@ TEST(BorderingSinks, ThatTouchTheBorderLeaveItStraight)
     for (std::uint64_t seed = 1; seed <= 24; ++seed)
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
             const BentSolid solid = random_touching_sink(seed);
-            expect_least_diameters(folder, solid, form, 2, area_of(solid.sink[0].hole) + area_of(solid.sink[1].hole));
+            expect_least_diameters(folder, solid, form, 2,
+                                   round_area(solid.sink[0].hole) + round_area(solid.sink[1].hole));
         }
 }
 
@@ -111,7 +106,7 @@ TEST(BorderingSinks, OpenAtOneSkinAreCutAtTheirLeastDiameter)
     for (std::uint64_t seed = 1; seed <= 24; ++seed)
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
             const BentSolid solid = random_open_sink(seed);
-            expect_least_diameters(folder, solid, form, 1, area_of(solid.sink[0].hole));
+            expect_least_diameters(folder, solid, form, 1, round_area(solid.sink[0].hole));
         }
 }
 

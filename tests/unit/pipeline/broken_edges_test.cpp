@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
-#include <numbers>
 #include <string>
 
 #include "engine/mesh/topology.h"
@@ -11,6 +10,7 @@
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solid_size.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
@@ -95,13 +95,9 @@ TEST(BrokenEdges, DoNotMoveTheBorder)
             const Session session = solved_part(file);
             ASSERT_TRUE(session.part->solid);
             const Eigen::Matrix2Xd& X = session.blank->blank.position;
-            const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff(),
-                                  made(solid.developed(0.5), solid.width);
-            // single precision, bends of chords
-            const double within = form == CadForm::stl ? 2e-3 : 1e-4;
-            EXPECT_NEAR(size.minCoeff(), made.minCoeff(), within);
-            EXPECT_NEAR(size.maxCoeff(), made.maxCoeff(), within);
-            EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle) / made.prod(), 1, within / 10);
+            const double within = size_within(form);
+            expect_developed_size(session, solid, within);
+            EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle) / developed_area(solid), 1, within / 10);
         }
     }
 }
@@ -117,17 +113,14 @@ TEST(BrokenEdges, BesideSunkHolesDoNotMoveTheBorder)
         ASSERT_TRUE(session.part->solid);
         EXPECT_TRUE(session.part->doubts.empty()) << fmt::format("{}", fmt::join(session.part->doubts, "\n"));
         const Eigen::Matrix2Xd& X = session.blank->blank.position;
-        const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff(),
-                              made(solid.developed(0.5), solid.width);
-        EXPECT_NEAR(size.minCoeff(), made.minCoeff(), 1e-4);
-        EXPECT_NEAR(size.maxCoeff(), made.maxCoeff(), 1e-4);
+        expect_developed_size(session, solid, size_within(CadForm::step));
         double holes = 0;
         for (const shapes::Sink& sink : solid.sink)
-            holes += std::numbers::pi * sink.hole * sink.hole;
+            holes += round_area(sink.hole);
         for (const shapes::Cutout& hole : solid.cutout)
-            holes += std::numbers::pi * hole.radius * hole.radius;
+            holes += round_area(hole.radius);
         // chords of up to 0.2 radians take 0.7 % of a hole
-        EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle), made.prod() - holes, 0.01 * holes);
+        EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle), developed_area(solid) - holes, 0.01 * holes);
     }
 }
 

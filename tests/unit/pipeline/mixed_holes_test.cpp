@@ -12,6 +12,7 @@
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solid_size.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
@@ -116,10 +117,7 @@ TEST(MixedHoles, AreAllInTheBlankAndStrainNothing)
                   1 + solid.cutout.size() + solid.sink.size() + solid.bend_cut.size());
         EXPECT_EQ(part.solid->marks.size(), solid.sink.size());
         const Eigen::Matrix2Xd& X = session.blank->blank.position;
-        const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff(),
-                              made(solid.developed(0.5), solid.width);
-        EXPECT_NEAR(size.minCoeff(), made.minCoeff(), 1e-4);
-        EXPECT_NEAR(size.maxCoeff(), made.maxCoeff(), 1e-4);
+        expect_developed_size(session, solid, size_within(shapes::CadForm::step));
         EXPECT_LT(session.blank->face.strain_equivalent.maxCoeff(), 1e-3);
         const double area = shapes::flat_area(X, part.mesh.triangle),
                      expected = (shapes::exact_volume(session.file) + sunk_volume(solid)) / solid.thickness;

@@ -12,6 +12,7 @@
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solid_size.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
@@ -71,15 +72,11 @@ TEST(ObliqueHoles, AreInTheBlankAsInTheMiddleOfTheSheet)
             EXPECT_TRUE(part.doubts.empty()) << fmt::format("{}", fmt::join(part.doubts, "\n"));
             EXPECT_EQ(boundary_loops(part.mesh).size(), 1 + solid.cutout.size());
             const Eigen::Matrix2Xd& X = session.blank->blank.position;
-            const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff(),
-                                  made(solid.developed(0.5), solid.width);
-            const double within = form == CadForm::stl ? 2e-3 : 1e-4;
-            EXPECT_NEAR(size.minCoeff(), made.minCoeff(), within);
-            EXPECT_NEAR(size.maxCoeff(), made.maxCoeff(), within);
+            expect_developed_size(session, solid, size_within(form));
             EXPECT_LT(session.blank->face.strain_equivalent.maxCoeff(), form == CadForm::stl ? 5e-3 : 1e-3);
             // The volume of the sheet over its thickness is its area in the middle; chords of up to
             // 0.2 radians take 0.7 % of a hole.
-            const double area = shapes::exact_volume(step) / solid.thickness, holes = made.prod() - area;
+            const double area = shapes::exact_volume(step) / solid.thickness, holes = developed_area(solid) - area;
             EXPECT_NEAR(shapes::flat_area(X, part.mesh.triangle), area, 0.01 * holes);
         }
 }
