@@ -95,7 +95,6 @@ std::string comparison_table(const std::vector<ComparisonRow>& rows, TableStyle 
 std::string comparison_json(const std::filesystem::path& file, const TriMesh& part,
                             const std::vector<ComparisonRow>& rows, const std::vector<std::string>& notes)
 {
-    using Json = nlohmann::ordered_json;
     const auto optional = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
     Json json = {{"schema", "spia.compare/1"},
                  {"input", file.string()},
