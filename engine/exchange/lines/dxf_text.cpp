@@ -6,42 +6,7 @@
 namespace spia {
 namespace {
 
-enum : int {
-    vports = 0x1,
-    ltypes,
-    layers,
-    styles,
-    views,
-    ucss,
-    appids,
-    dimstyles,
-    block_records,
-    root_dictionary = 0x10,
-    group_dictionary,
-    model_space = 0x20,
-    model_block,
-    model_end,
-    paper_space,
-    paper_block,
-    paper_end,
-    by_block = 0x30,
-    by_layer,
-    continuous,
-    layer_0,
-    outline_layer, // of write_dxf()
-    holes_layer,
-    standard_style,
-    acad,
-    standard_dimstyle,
-    active,
-    bend_up_layer,
-    bend_down_layer,
-    bend_zone_layer,
-    marks_layer,
-    dashed,
-    dotted,
-    own_application,
-};
+using namespace dxf_handle;
 
 /// As $INSUNITS counts.
 int dxf_number(LengthUnit unit)

@@ -72,10 +72,46 @@ struct DxfFrame {
     int next_handle;              ///< greater than all others
 };
 
+/// Of what stands in every file, and of the layers.
 namespace dxf_handle {
-constexpr int model_space = 0x20, layer_outline = 0x34, layer_holes = 0x35, layer_bend_up = 0x3a,
-              layer_bend_down = 0x3b, layer_bend_zone = 0x3c, layer_marks = 0x3d, layer_marks_text = 0x3e,
-              first_entity = 0x100; ///< what stands in every file is below
+enum : int {
+    vports = 0x1,
+    ltypes,
+    layers,
+    styles,
+    views,
+    ucss,
+    appids,
+    dimstyles,
+    block_records,
+    root_dictionary,
+    group_dictionary,
+    model_space,
+    model_block,
+    model_end,
+    paper_space,
+    paper_block,
+    paper_end,
+    by_block,
+    by_layer,
+    continuous,
+    dashed,
+    dotted,
+    standard_style,
+    standard_dimstyle,
+    active,
+    acad,
+    own_application,
+    layer_0,
+    layer_outline,
+    layer_holes,
+    layer_bend_up,
+    layer_bend_down,
+    layer_bend_zone,
+    layer_marks,
+    layer_marks_text,
+    first_entity = 0x100
+};
 }
 
 /// Everything before the first entity; then come the entities, then end_dxf(). For .cpp files of

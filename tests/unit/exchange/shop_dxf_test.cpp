@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
+#include <set>
+#include <sstream>
 #include <string>
 
 #include "engine/core/error.h"
@@ -467,6 +469,37 @@ TEST(ShopDxf, MarksSayWhatTheyAreAndAtWhichSide)
     drawing.marks.erase(drawing.marks.begin(), drawing.marks.begin() + 2);
     write_dxf(folder / "marks.dxf", drawing);
     EXPECT_EQ(content_of(folder / "marks.dxf").find("MARKS_TEXT"), std::string::npos);
+}
+
+TEST(ShopDxf, EveryObjectHasAHandleOfItsOwn)
+{
+    const ScratchFolder folder;
+    BlankDrawing drawing{{rounded(80, 60, 5, 8, 1, 0), circle(3, 60, true)}};
+    for (const bool up : {true, false}) {
+        DrawnBend bend{"bend", pi / 2, 3, 0.5, up, {}, {}};
+        bend.middle = {(Eigen::Matrix2Xd(2, 2) << 20, 20, 0, 60).finished()};
+        bend.zone = bend.middle;
+        drawing.bends.push_back(bend);
+    }
+    drawing.marks = {{circle(6, 120), {MarkLabel::Kind::countersink, false, true, 12, 3, 6}}};
+    for (const DxfVersion version : {DxfVersion::r12, DxfVersion::r2000}) {
+        write_dxf(folder / "all.dxf", drawing, {.version = version});
+        std::istringstream text(content_of(folder / "all.dxf"));
+        std::set<std::string> handles;
+        std::string code, value, seed;
+        for (bool of_seed = false; std::getline(text, code) && std::getline(text, value);) {
+            const int number = std::stoi(code);
+            if (number == 5 && of_seed)
+                seed = value;
+            else if (number == 5 || number == 105) {
+                EXPECT_TRUE(handles.insert(value).second) << value << " twice";
+            }
+            of_seed = number == 9 && value.starts_with("$HANDSEED");
+        }
+        EXPECT_GT(handles.size(), 15u);
+        for (const std::string& handle : handles)
+            EXPECT_TRUE(seed.empty() || std::stoi(handle, nullptr, 16) < std::stoi(seed, nullptr, 16));
+    }
 }
 
 } // namespace spia
