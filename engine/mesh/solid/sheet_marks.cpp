@@ -200,7 +200,8 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
     struct Group {
         double along_skin = 0, along_rim = 0, smoothly = 0; ///< mm; the last one of the first
         /// off: some vertex is not one of the skin, and can be moved to it; floor: a triangle that looks
-        /// as the skin does has one that is not at the rim either, as none of a chamfer has
+        /// as the skin does has one that is not at the rim either, or is level below it, as none of a
+        /// chamfer does
         bool floor = false, off = false;
     };
     std::map<int, Group> groups;
@@ -210,13 +211,22 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
     for (int f = 0; f < mesh.triangles(); ++f)
         for (int k = 0; k < 3 && !level[piece(f)] && !(main[piece(f)] && side[piece(f)] == skin); ++k)
             at_rim[size_t(mesh.triangle(k, f))] = 1;
-    for (int f = 0; f < mesh.triangles(); ++f)
-        for (int k = 0; k < 3 && level[piece(f)]; ++k) {
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        if (!level[piece(f)])
+            continue;
+        Group& group = groups[together.root(pieces.piece[size_t(f)])];
+        bool below = side[piece(f)] == skin; // wholly
+        Eigen::Array3d depth;
+        for (int k = 0; k < 3; ++k) {
             const int v = mesh.triangle(k, f);
-            Group& group = groups[together.root(pieces.piece[size_t(f)])];
             group.off |= !skin_at.has(v);
             group.floor |= side[piece(f)] == skin && !skin_at.has(v) && !at_rim[size_t(v)];
+            below &= !skin_at.has(v);
+            depth[k] = below ? height.square_to(v, normal.col(f).normalized()) - thickness : 0;
         }
+        constexpr double even = 0.1; // of the depth: facets of a rounding are not
+        group.floor |= below && depth.maxCoeff() - depth.minCoeff() < even * std::abs(depth.mean());
+    }
     for (const PieceContact& c : pieces.contact)
         for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
             if (level[size_t(p)] && !level[size_t(q)]) {

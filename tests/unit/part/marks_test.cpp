@@ -164,6 +164,22 @@ TEST(Marks, ThatReachTheRimAndTinyStepsAreTakenOut)
         }
 }
 
+TEST(Marks, ThatAreALevelBorderOfFewTrianglesAreTakenOut)
+{
+    // As CAD systems give a rebate: no vertex of its floor is off the rim.
+    shapes::SeededRandom random(29);
+    for (int sample = 0; sample < 24; ++sample) {
+        const double t = random.between(1, 5), wide = random.between(60, 120), along = random.between(30, 90),
+                     floor = random.between(0.8, 6) * t, depth = random.between(0.01, 0.19) * t;
+        SCOPED_TRACE(fmt::format("sheet of {:.4g} mm, {:.4g} wide, {:.4g} deep", t, floor, depth));
+        const TriMesh plain = shapes::extruded({{0, 0}, {wide, 0}, {wide, t}, {0, t}}, {}, along),
+                      rebated = shapes::extruded(
+                          {{0, 0}, {wide, 0}, {wide, t}, {floor, t}, {floor, t - depth}, {0, t - depth}}, {}, along);
+        expect_same(plain, shapes::transformed(rebated, shapes::random_rotation(std::uint64_t(sample)), {3, -2, 9}), 1,
+                    depth, 1e-9);
+    }
+}
+
 TEST(Marks, SeveralAndThoseWithTwoDepthsAreTakenOut)
 {
     const BentSheet sheet = step_sheet();
