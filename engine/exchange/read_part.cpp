@@ -121,6 +121,8 @@ PartFile remeshed(const fs::path& path, const ReadOptions& options, const Progre
         part = remesh_part(std::move(part), *options.remesh, progress.part(0.4, 1));
     else if (part.cad && !options.cad.keep_triangles)
         part = remesh_needles(std::move(part), options.cad.deflection, progress.part(0.4, 1));
+    else if (!part.cad)
+        part = excuse_needles(std::move(part));
     add(part, on_targets(options.targets, part));
     return part;
 }

@@ -12,20 +12,34 @@
 #include "engine/remesh/triangle_quality.h"
 
 namespace spia {
+namespace {
+
+bool unrolls(const PartFile& part)
+{
+    constexpr double bent = 0.02; // bent parts measured have 0 to rounding, the flattest of the drawn ones 0.9
+    return curvature_off_bends(part) < bent;
+}
+
+} // namespace
+
+PartFile excuse_needles(PartFile part)
+{
+    const auto needle = [](const Finding& f) { return f.fault == Fault::sliver; };
+    if (std::ranges::any_of(part.doctor.findings, needle) && unrolls(part)) {
+        std::erase_if(part.doctor.findings, needle);
+        part.notes.push_back(
+            "the long narrow triangles lie along the rulings of a developable surface and do not affect the strains");
+    }
+    return part;
+}
 
 PartFile remesh_needles(PartFile part, std::optional<double> deflection, const Progress& progress)
 {
     constexpr double needle = 15 * std::numbers::pi / 180; // of one triangle in a hundred
-    constexpr double unrolls = 0.02; // bent parts measured have 0 to rounding, the flattest of the
-                                     // drawn ones 0.9
     if (triangle_quality(part.mesh).least_angle_of_99 > needle)
         return part;
-    if (curvature_off_bends(part) < unrolls) {
-        if (std::erase_if(part.doctor.findings, [](const Finding& f) { return f.fault == Fault::sliver; }))
-            part.notes.push_back(
-                "the long narrow triangles lie along the rulings of a developable surface and do not affect the strains");
-        return part;
-    }
+    if (unrolls(part))
+        return excuse_needles(std::move(part));
     try {
         RemeshOptions remesh;
         if (deflection) // the mesh is to be as close again; not coarser than by default, nor finer

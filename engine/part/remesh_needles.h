@@ -6,6 +6,9 @@
 
 namespace spia {
 
+/// Of a part that unrolls needles say nothing of its strains: a note takes the place of the finding.
+PartFile excuse_needles(PartFile part);
+
 /// Needles on CAD faces. On a part that unrolls they are strips along its straight lines, as they
 /// should be. On others they are chords that differ from triangle to triangle, which is taken for
 /// strain: they go unasked, or a note says why not.
