@@ -5,6 +5,7 @@
 
 #include "app/viewer/model/actions/remedies.h"
 #include "engine/mesh/topology.h"
+#include "tests/support/bent_parts.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/sample_decks.h"
@@ -305,6 +306,25 @@ TEST_F(Lights, APartHardlyLargerThanItsSheetIsThickIsDoubtedWhateverWasSaidOfIts
     model.apply(SetThickness{200}); // of a part 750 mm across
     ASSERT_EQ(of(ChainStep::part).size(), 1u) << all();
     EXPECT_THAT(of(ChainStep::part)[0].next, HasSubstr("thickness"));
+}
+
+TEST_F(Lights, CornersThatKeepABentPartFromUnrollingAreCutByAClick)
+{
+    shapes::write_mesh(folder / "tray.obj", shapes::lipped_box());
+    model.apply(OpenPart{folder / "tray.obj", "mm"});
+    run(Stage::solve);
+    ASSERT_TRUE(document.session.blank) << all();
+    const auto strain = [&] { return document.session.blank->face.strain_equivalent.maxCoeff(); };
+    EXPECT_GT(strain(), 0.1);
+    const auto doubts = of(ChainStep::unfold);
+    const auto corners = std::ranges::find(doubts, Remedy::cut_corners, &Doubt::remedy);
+    ASSERT_NE(corners, doubts.end()) << all();
+    EXPECT_THAT(corners->text, HasSubstr("The sheet is only bent"));
+    press(*corners);
+    run(Stage::solve);
+    EXPECT_LT(strain(), 1e-6);
+    for (const Doubt& doubt : of(ChainStep::unfold))
+        EXPECT_NE(doubt.remedy, Remedy::cut_corners);
 }
 
 } // namespace

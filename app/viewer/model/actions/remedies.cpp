@@ -44,6 +44,7 @@ std::vector<Action> actions_of(const Doubt& doubt, const Document& document)
     case Remedy::none: return {};
     case Remedy::confirm_sheet: return confirmed(document);
     case Remedy::propose_steps: return {ProposeSteps{}};
+    case Remedy::cut_corners: return {SetSeam{{SeamOptions::Mode::corners}}};
     case Remedy::harmonic_grid: return {with(options.grid, GridMethod::harmonic)};
     case Remedy::read_in_other_unit: {
         if (!document.session.part)

@@ -19,6 +19,7 @@ enum class ChainStep { part, sheet, unfold, grid, surface };
 enum class Remedy {
     none,
     read_in_other_unit,
+    cut_corners,   ///< that keep a bent part from unrolling
     confirm_sheet, ///< what is assumed is right
     show_zones,
     show_necking,
