@@ -10,6 +10,7 @@
 
 #include "engine/core/place_text.h"
 #include "engine/core/text.h"
+#include "engine/mesh/solid/beside_solid.h"
 #include "engine/mesh/solid/mark_outlines.h"
 #include "engine/mesh/solid/measured_cylinders.h"
 #include "engine/mesh/solid/sheet_or_hollow.h"
@@ -220,25 +221,27 @@ struct LaidSkin {
     Remarks remarks;
 };
 
-/// A doubt where the edge of the blank is beside its place by more than a speck of the thickness.
-Remarks on_straight_vertices(const SkinMesh& skin, double thickness)
+/// A doubt where the edge of the blank is beside its place.
+/// @param deflection  mm, from the triangles of the solid to its CAD faces
+Remarks on_border(const TriMesh& middle, const TriMesh& solid, double thickness, double deflection)
 {
+    constexpr double speck = 0.02; // of the thickness; right ones of coarse meshes are within 0.01
+    const std::vector<BesideSolid> off =
+        beside_solid(middle, solid, thickness, std::max(speck * thickness, deflection));
     Remarks remarks;
-    if (skin.straightened.empty())
+    if (off.empty())
         return remarks;
-    const StraightVertex& worst = *std::ranges::max_element(skin.straightened, {}, &StraightVertex::beside);
-    constexpr double speck = 0.01;
-    std::string text = fmt::format(
-        "{} not halfway along an edge that crosses the sheet askew but straight below the {} skin, for triangles not "
-        "to turn over: up to {:.2g} mm beside it, at {} mm",
-        counted(skin.straightened.size(), "vertex of the middle surface lies", "vertices of the middle surface lie"),
-        of_skin(skin.side), worst.beside(), place_text(worst.place));
-    const auto off = [&](const StraightVertex& v) { return v.certain && v.beside() > speck * thickness; };
-    if (std::ranges::none_of(skin.straightened, off))
-        remarks.notes.push_back(std::move(text));
-    else
-        remarks.doubt(text + "; the edge of the blank is as far off there: correct it by hand, or draw that edge "
-                             "square to the sheet");
+    std::vector<Eigen::Vector3d> places;
+    for (const BesideSolid& row : off)
+        places.push_back(row.place);
+    const auto distance = [](const BesideSolid& row) { return std::abs(row.beside); };
+    const BesideSolid& worst = *std::ranges::max_element(off, {}, distance);
+    remarks.doubt(fmt::format(
+        "the edge of the middle surface is beside that of the solid at {}, by up to {:.2g} mm, where the blank is too "
+        "{}: at {} mm. Compare the outline there with the part and correct it by hand, or draw that edge square to the "
+        "sheet, without what is sunk or rounded at both skins",
+        counted(off.size(), "place", "places"), distance(worst), worst.beside > 0 ? "small" : "large",
+        place_text(places)));
     return remarks;
 }
 
@@ -256,7 +259,6 @@ LaidSkin laid_skin(const TriMesh& solid, const ThinSolid& sheet, const std::vect
             laid.remarks = std::move(middle.remarks);
         } else
             laid.skin = skin_of(solid, sheet, wanted, units);
-        laid.remarks.add(on_straight_vertices(laid.skin, sheet.thickness));
         return laid;
     } catch (const NotASheet& reason) {
         if (asked)
@@ -431,6 +433,8 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
     const LaidSkin laid = laid_skin(part.mesh, sheet, holes, sinks, options.skin, faces_of(part, normals, surface));
     add(part, laid.remarks);
+    if (laid.kind == Skin::middle)
+        add(part, on_border(laid.skin.mesh, part.mesh, sheet.thickness, part.cad ? part.cad->deflection : 0));
     const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.skin.side, surface);
     add(part, uneven);
     add(part, on_open_sinks(sinks, laid.kind, laid.skin.side));

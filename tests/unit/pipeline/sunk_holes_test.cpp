@@ -231,7 +231,7 @@ void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm f
                                                 sink.counterbore ? "counterbore" : "countersink", 2 * sink.wide,
                                                 sink.depth, 2 * sink.hole));
         })) << told->what.front();
-    EXPECT_TRUE(part.doubts.empty());
+    EXPECT_EQ(part.doubts, std::vector<std::string>());
     const BlankDrawing drawing =
         drawn_blank(part, find_bends(part.mesh), session.blank->blank, session.blank->face, true, session.bends.get());
     EXPECT_EQ(drawing.marks.size(), solid.sink.size());

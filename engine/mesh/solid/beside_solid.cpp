@@ -1,0 +1,203 @@
+#include "engine/mesh/solid/beside_solid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/mesh/closest_point.h"
+#include "engine/mesh/face_neighbours.h"
+#include "engine/mesh/pick.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+/// A place of the border; unit vectors.
+struct BorderPlace {
+    Eigen::Vector3d place, normal, outward;
+};
+
+class Section {
+public:
+    Section(const TriMesh& solid, double thickness)
+        : solid_(solid), neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))), rays_(solid),
+          half_(thickness / 2)
+    {
+    }
+
+    /// Whether the line square to the sheet through a place so far outwards meets matter within the
+    /// thickness. Beyond the border the faces of another leg that lies on this one do not count;
+    /// before it a knife edge at a skin does.
+    bool matter(const BorderPlace& at, double outwards) const
+    {
+        return matter(at.place + outwards * at.outward, (outwards > 0 ? 0.98 : 1.02) * half_ * at.normal);
+    }
+
+    /// Whether matter begins within the tolerance inwards, if only that of a thin web, and none is
+    /// beyond.
+    bool ends(const BorderPlace& at, double tolerance) const
+    {
+        if (matter(at, tolerance))
+            return false;
+        constexpr int places = 8;
+        for (int k = places; k >= 0; --k)
+            if (matter(at, -tolerance * k / places))
+                return true;
+        return false;
+    }
+
+    /// How far the walls beside a place may be from the arcs that they stand for, mm: the height of
+    /// an arc over the chord that is one facet.
+    double facets(const BorderPlace& at, double within) const
+    {
+        double result = 0;
+        for (const int f : near(at.place, within))
+            for (int k = 0; k < 3; ++k) {
+                const int other = neighbour_(k, f);
+                if (other < 0)
+                    continue;
+                const Eigen::Vector3d n = normal(f), edge = corners(f).col((k + 1) % 3) - corners(f).col(k);
+                const double turn = std::atan2(n.cross(normal(other)).norm(), n.dot(normal(other)));
+                constexpr double smooth = std::numbers::pi / 6; // a circle of twelve chords
+                if (turn < smooth)
+                    result = std::max(result, n.norm() / edge.norm() / 2 * std::tan(turn / 4));
+            }
+        return result;
+    }
+
+    /// Whether the place is on a wall that crosses the whole sheet askew: the wall goes on most of
+    /// the way to the skin, or less and less of the solid is left on the way to where it ends, and
+    /// that at a skin. Of a chamfer or a sink the wall beyond it is left.
+    /// @param end  mm outwards, where the solid ends
+    bool halfway_along_a_wall(const BorderPlace& at, double end, double within) const
+    {
+        return std::ranges::any_of(near(at.place, within), [&](int f) {
+            const Eigen::Vector3d n = normal(f).normalized();
+            const double along = n.dot(at.normal);
+            const Eigen::Vector3d across = n - along * at.normal;
+            constexpr double square = 0.02, most = 0.7, nearly = 0.9, inside = 0.8;
+            if (!(across.norm() > square)) // a skin
+                return false;
+            const double to_skin = half_ * std::abs(along) / across.norm();
+            return (std::abs(along) > square &&
+                    matter(at.place - within * at.outward + most * to_skin * across.normalized(), half_ * at.normal)) ||
+                   (end > 0 && !matter(at.place + nearly * end * at.outward, inside * half_ * at.normal));
+        });
+    }
+
+private:
+    /// @param half  mm, of the line
+    bool matter(const Eigen::Vector3d& place, const Eigen::Vector3d& half) const
+    {
+        const RayHit hit = rays_.first(place + half, -2 * half);
+        return hit.face >= 0 && (hit.distance <= 1 || normal(hit.face).dot(half) < 0);
+    }
+
+    Eigen::Matrix3d corners(int face) const
+    {
+        Eigen::Matrix3d result;
+        for (int k = 0; k < 3; ++k)
+            result.col(k) = solid_.position.col(solid_.triangle(k, face));
+        return result;
+    }
+    Eigen::Vector3d normal(int face) const
+    {
+        const Eigen::Matrix3d c = corners(face);
+        return (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
+    }
+
+    std::vector<int> near(const Eigen::Vector3d& place, double within) const
+    {
+        Eigen::Matrix4Xd box(4, 6);
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+            box.col(2 * k) << axis, within - place[k];
+            box.col(2 * k + 1) << -axis, within + place[k];
+        }
+        std::vector<int> faces = rays_.near(box);
+        std::erase_if(faces, [&](int f) {
+            const Eigen::Matrix3d c = corners(f);
+            return (c * closest_on_triangle(c, place) - place).norm() > within;
+        });
+        return faces;
+    }
+
+    const TriMesh& solid_;
+    Eigen::Matrix3Xi neighbour_; ///< as face_neighbours() says
+    RayPicker rays_;
+    double half_; ///< mm
+};
+
+/// Where the solid ends from a place outwards, mm; `most` at most.
+double to_the_end(const Section& section, const BorderPlace& at, double first, double most)
+{
+    const bool inside = section.matter(at, first);
+    double from = inside ? first : -first, to = 2 * from;
+    while (section.matter(at, to) == inside) {
+        if (std::abs(to) > most)
+            return std::copysign(most, to);
+        from = to;
+        to *= 2;
+    }
+    constexpr int digits = 10; // of a binary fraction: a thousandth of what is told
+    for (int k = 0; k < digits; ++k) {
+        const double half = (from + to) / 2;
+        (section.matter(at, half) == inside ? from : to) = half;
+    }
+    return (from + to) / 2;
+}
+
+/// Per vertex of a boundary loop how far it is beside the border of the solid, mm; 0: it is not.
+std::vector<double> beside(const std::vector<int>& loop, const TriMesh& middle, const Eigen::Matrix3Xd& normal,
+                           const Section& section, double tolerance, double most)
+{
+    std::vector<double> result;
+    const auto place = [&](size_t k) { return middle.position.col(loop[k % loop.size()]); };
+    for (size_t i = 0; i < loop.size(); ++i) {
+        const Eigen::Vector3d here = place(i), n = normal.col(loop[i]),
+                              before = (here - place(i + loop.size() - 1)).cross(n).normalized(),
+                              after = (place(i + 1) - here).cross(n).normalized();
+        const BorderPlace at{here, n, (before + after).normalized()};
+        constexpr double cusp = 0.26; // cosine of 75 degrees
+        const bool judged = (before + after).norm() > 2 * cusp;
+        if (!judged || section.ends(at, tolerance)) {
+            result.push_back(0);
+            continue;
+        }
+        constexpr double nearby = 8; // tolerances
+        const double within = tolerance + section.facets(at, nearby * tolerance);
+        const double end = to_the_end(section, at, tolerance, most);
+        result.push_back(section.ends(at, within) || section.halfway_along_a_wall(at, end, within) ? 0 : end);
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<BesideSolid> beside_solid(const TriMesh& middle, const TriMesh& solid, double thickness, double tolerance)
+{
+    std::vector<BesideSolid> result;
+    const Section section(solid, thickness);
+    const Eigen::Matrix3Xd normal = vertex_normals(middle);
+    constexpr double most = 8; // thicknesses that are looked at
+    for (const std::vector<int>& loop : boundary_loops(middle)) {
+        const std::vector<double> off = beside(loop, middle, normal, section, tolerance, most * thickness);
+        // no row runs over the end of the loop
+        const auto first = std::ranges::find(off, 0.0) - off.begin();
+        const size_t start = first == std::ssize(off) ? 0 : size_t(first);
+        bool in_row = false;
+        for (size_t k = 0; k < loop.size(); ++k) {
+            const size_t i = (start + k) % loop.size();
+            const BesideSolid here{middle.position.col(loop[i]), off[i]};
+            if (off[i] != 0 && !in_row)
+                result.push_back(here);
+            else if (off[i] != 0 && std::abs(off[i]) > std::abs(result.back().beside))
+                result.back() = here;
+            in_row = off[i] != 0;
+        }
+    }
+    return result;
+}
+
+} // namespace spia

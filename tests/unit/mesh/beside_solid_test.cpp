@@ -1,0 +1,108 @@
+// A middle surface held against its solid: right borders are let pass, moved ones are found and
+// measured.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+#include "engine/mesh/solid/beside_solid.h"
+#include "engine/mesh/topology.h"
+#include "tests/support/shapes.h"
+#include "tests/support/sheet_solid.h"
+
+namespace spia {
+namespace {
+
+using std::numbers::pi;
+
+struct Solid {
+    TriMesh solid, middle;
+    double thickness;
+};
+
+/// A plate with two holes, somewhere in space. @param lean  of all its walls, tangent
+Solid any_plate(std::mt19937& random, double lean)
+{
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const double thickness = between(1, 6);
+    const shapes::Circle hole{{between(30, 45), between(30, 50)}, between(4, 15)};
+    const TriMesh outer = shapes::plate({120, 80, {hole, {{85, 40}, 12}}, 12000});
+    Eigen::Matrix3Xd inwards(3, outer.vertices());
+    inwards.colwise() = Eigen::Vector3d(lean, 0, -1) * thickness;
+    Solid result{shapes::thickened(outer, inwards), outer, thickness};
+    result.middle.position += inwards / 2;
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(between(0, pi), Eigen::Vector3d(between(-1, 1), between(-1, 1), 1).normalized())
+            .toRotationMatrix();
+    for (TriMesh* mesh : {&result.solid, &result.middle})
+        mesh->position = (turn * mesh->position).eval();
+    return result;
+}
+
+/// Its second longest loop wider by so much, mm; less where it is negative.
+TriMesh with_a_wider_hole(TriMesh mesh, double by)
+{
+    const std::vector<int> loop = boundary_loops(mesh)[1];
+    const Eigen::Vector3d centre = mesh.position(Eigen::all, loop).rowwise().mean();
+    for (const int v : loop)
+        mesh.position.col(v) += by * (mesh.position.col(v) - centre).normalized();
+    return mesh;
+}
+
+TEST(BesideSolid, LetsRightBordersPass)
+{
+    std::mt19937 random(11);
+    for (int k = 0; k < 20; ++k) {
+        const Solid part = any_plate(random, k % 2 ? 0 : 0.6);
+        EXPECT_TRUE(beside_solid(part.middle, part.solid, part.thickness, 0.01 * part.thickness).empty()) << k;
+    }
+}
+
+TEST(BesideSolid, LetsBentSheetPass)
+{
+    const shapes::Profile profile =
+        shapes::Profile({0, 0}, 0).straight(40).bend(6, -pi / 2).straight(30).bend(8, pi / 3).straight(20);
+    for (const double edge : {2., 6.}) {
+        const shapes::BentSheet sheet = shapes::bent_sheet(profile, 50, edge);
+        for (const double thickness : {0.5, 3.}) {
+            TriMesh middle = sheet.mesh;
+            middle.position -= thickness / 2 * sheet.normal;
+            const TriMesh solid = shapes::thickened(sheet.mesh, -thickness * sheet.normal);
+            EXPECT_TRUE(beside_solid(middle, solid, thickness, 0.02 * thickness).empty()) << edge << ' ' << thickness;
+        }
+    }
+}
+
+TEST(BesideSolid, MeasuresHolesThatAreTooWideOrTooNarrow)
+{
+    std::mt19937 random(12);
+    for (int k = 0; k < 20; ++k) {
+        const Solid part = any_plate(random, 0);
+        for (const double share : {-0.4, -0.15, 0.15, 0.4}) {
+            const double by = std::clamp(share * part.thickness, -0.5, 0.5); // no triangle turns over
+            const std::vector<BesideSolid> off =
+                beside_solid(with_a_wider_hole(part.middle, by), part.solid, part.thickness, 0.02 * part.thickness);
+            ASSERT_EQ(off.size(), 1u) << k << ": one row all around";
+            EXPECT_NEAR(off[0].beside, by, 0.02 * std::abs(by)) << k;
+        }
+    }
+}
+
+TEST(BesideSolid, FindsAnAskewWallThatIsNotMetHalfway)
+{
+    std::mt19937 random(13);
+    for (int k = 0; k < 10; ++k) {
+        Solid part = any_plate(random, 0.6);
+        // as if the border went straight in below the outer skin
+        const Eigen::Vector3d across =
+            (part.solid.position.col(part.middle.vertices()) - part.solid.position.col(0)) / 2;
+        const Eigen::Vector3d normal = area_vectors(part.middle).col(0).normalized();
+        part.middle.position.colwise() -= across - across.dot(normal) * normal;
+        EXPECT_FALSE(beside_solid(part.middle, part.solid, part.thickness, 0.02 * part.thickness).empty()) << k;
+    }
+}
+
+} // namespace
+} // namespace spia
