@@ -245,6 +245,17 @@ Remarks on_border(const TriMesh& middle, const TriMesh& solid, double thickness,
     return remarks;
 }
 
+Remarks on_oblique_holes(const SkinMesh& middle)
+{
+    Remarks remarks;
+    if (!middle.oblique.empty())
+        remarks.notes.push_back(fmt::format("{} the sheet askew, at {} mm: what is laid flat is where it is in the "
+                                            "middle of the sheet, and its walls are to be made after cutting",
+                                            counted(middle.oblique.size(), "hole crosses", "holes cross"),
+                                            place_text(middle.oblique)));
+    return remarks;
+}
+
 /// Where none was asked for and there is no middle one the outer skin is better than nothing, and a
 /// doubt.
 LaidSkin laid_skin(const TriMesh& solid, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
@@ -257,6 +268,7 @@ LaidSkin laid_skin(const TriMesh& solid, const ThinSolid& sheet, const std::vect
             MiddleSurface middle = middle_surface(solid, sheet, holes, open, units);
             laid.skin = std::move(middle.skin);
             laid.remarks = std::move(middle.remarks);
+            laid.remarks.add(on_oblique_holes(laid.skin));
         } else
             laid.skin = skin_of(solid, sheet, wanted, units);
         return laid;

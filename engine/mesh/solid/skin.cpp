@@ -441,6 +441,8 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
     flip_folds(before, result, options);
     straighten_folds(before, middle, result);
     require_unfolded(before, result, options);
+    for (const ObliqueHole& hole : middle.oblique)
+        result.oblique.push_back(hole.way + solid.position(Eigen::all, hole.rim).rowwise().mean());
     return result;
 }
 

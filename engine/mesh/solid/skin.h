@@ -31,6 +31,7 @@ struct SkinMesh {
     std::vector<int> source_face;      ///< per triangle that of the solid, ascending; repeats where
                                        ///< one was divided
     std::vector<StraightVertex> straightened;
+    std::vector<Eigen::Vector3d> oblique; ///< mm, the middles of holes that cross the sheet askew
 };
 
 /// The middle surface is the outer skin moved inwards by half the thickness: where the inner skin
