@@ -6,7 +6,6 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Line.hxx>
-#include <Geom2d_TrimmedCurve.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
@@ -29,16 +28,24 @@
 namespace spia {
 namespace {
 
-/// The line along v that a curve is but for rounding; null if it is another.
+/// The line along v that a curve is but for rounding, also one that is stated as a spline; null if
+/// it is another.
 Handle(Geom2d_Curve) along_v(const Handle(Geom2d_Curve) & curve, double from, double to)
 {
-    const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve);
-    const auto line = Handle(Geom2d_Line)::DownCast(trimmed.IsNull() ? curve : trimmed->BasisCurve());
-    constexpr double rounding = 1e-9;
-    if (line.IsNull() || std::abs(line->Direction().X()) > rounding)
+    if (curve.IsNull())
         return {};
-    const double u = line->Value((from + to) / 2).X();
-    return new Geom2d_Line(gp_Pnt2d(u, line->Location().Y()), gp_Dir2d(0, line->Direction().Y() > 0 ? 1 : -1));
+    const gp_Pnt2d first = curve->Value(from), last = curve->Value(to);
+    const double way = last.Y() > first.Y() ? 1 : -1, u = curve->Value((from + to) / 2).X();
+    constexpr double rounding = 1e-8; // radians, and of the length
+    constexpr int places = 8;
+    for (int k = 0; k <= places; ++k) {
+        const double t = from + (to - from) * k / places;
+        const gp_Pnt2d at = curve->Value(t);
+        if (!(std::abs(at.X() - u) <= rounding) ||
+            !(std::abs(at.Y() - first.Y() - way * (t - from)) <= rounding * (to - from)))
+            return {};
+    }
+    return new Geom2d_Line(gp_Pnt2d(u, first.Y() - way * from), gp_Dir2d(0, way));
 }
 
 /// BRepMesh divides the seams of cones, but gives no triangles to one whose seam is askew in its

@@ -4,6 +4,7 @@
 #include <BRepTools.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StlAPI_Writer.hxx>
 #include <stdexcept>
@@ -28,6 +29,12 @@ const char* extension(CadForm form)
     case CadForm::step: break;
     }
     return ".step";
+}
+
+void write_iges_parameters(bool as_well)
+{
+    IGESControl_Controller::Init();
+    Interface_Static::SetIVal("write.surfacecurve.mode", as_well ? 1 : 0);
 }
 
 void write_solid(const std::filesystem::path& file, const TopoDS_Shape& shape, CadForm form)

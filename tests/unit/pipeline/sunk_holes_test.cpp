@@ -255,9 +255,11 @@ TEST(SunkHoles, OfAnyAngleDepthAndSizeAreRightHoweverManyAreOnAFlat)
     // about the thickness.
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
-        for (const CadForm form : {CadForm::step, CadForm::iges, CadForm::stl}) {
+        for (const auto& [form, parameters] :
+             {std::pair(CadForm::step, true), {CadForm::iges, true}, {CadForm::iges, false}, {CadForm::stl, true}}) {
             const BentSolid solid = random_mixed_sinks(seed);
             SCOPED_TRACE(solid.kind);
+            shapes::write_iges_parameters(parameters);
             expect_right(folder, solid, form);
         }
 }
