@@ -28,11 +28,13 @@
 namespace spia {
 namespace {
 
-/// The line along v that a curve is but for rounding, also one that is stated as a spline; null if
-/// it is another.
-Handle(Geom2d_Curve) along_v(const Handle(Geom2d_Curve) & curve, double from, double to)
+/// The line along v that the curve of an edge on a face is but for rounding, also one that is stated
+/// as a spline; null if it is another.
+Handle(Geom2d_Curve) along_v(const TopoDS_Edge& edge, const TopoDS_Face& face)
 {
-    if (curve.IsNull())
+    double from = 0, to = 0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, from, to);
+    if (curve.IsNull() || !(to > from))
         return {};
     const gp_Pnt2d first = curve->Value(from), last = curve->Value(to);
     const double way = last.Y() > first.Y() ? 1 : -1, u = curve->Value((from + to) / 2).X();
@@ -59,10 +61,7 @@ void straighten_seams(const TopoDS_Compound& shape)
             const TopoDS_Edge edge = TopoDS::Edge(at.Current().Oriented(TopAbs_FORWARD));
             if (!BRep_Tool::IsClosed(edge, of))
                 continue;
-            double from, to;
-            const auto one = along_v(BRep_Tool::CurveOnSurface(edge, of, from, to), from, to);
-            const auto other =
-                along_v(BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), of, from, to), from, to);
+            const auto one = along_v(edge, of), other = along_v(TopoDS::Edge(edge.Reversed()), of);
             if (!one.IsNull() && !other.IsNull())
                 BRep_Builder().UpdateEdge(edge, one, other, of, BRep_Tool::Tolerance(edge));
         }
