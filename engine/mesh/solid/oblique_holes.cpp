@@ -7,47 +7,12 @@
 #include <map>
 #include <optional>
 
-#include "engine/mesh/disjoint_sets.h"
-#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/solid/sheet_walls.h"
 
 namespace spia {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-
-/// The wall of a hole and its edges at both skins, from vertex to vertex in the order of the wall.
-struct Wall {
-    std::vector<int> face;
-    std::map<int, int> outer, inner;
-};
-
-/// Per connected part of the faces across the thickness.
-std::map<int, Wall> walls_of(const TriMesh& solid, const ThinSolid& sheet)
-{
-    const auto side = [&](const EdgeUse& use) { return sheet.side[size_t(use.face)]; };
-    const std::vector<EdgeUse> uses = edge_uses(solid.triangle);
-    DisjointSets part(size_t(solid.triangles()));
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end == begin + 2 && side(uses[begin]) == SheetSide::rim && side(uses[begin + 1]) == SheetSide::rim)
-            part.join(uses[begin].face, uses[begin + 1].face);
-    });
-    std::map<int, Wall> walls;
-    for (int f = 0; f < solid.triangles(); ++f)
-        if (sheet.side[size_t(f)] == SheetSide::rim)
-            walls[part.root(f)].face.push_back(f);
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end != begin + 2)
-            return;
-        const bool first = side(uses[begin]) == SheetSide::rim;
-        const EdgeUse &wall = uses[first ? begin : begin + 1], &skin = uses[first ? begin + 1 : begin];
-        if (side(wall) != SheetSide::rim || side(skin) == SheetSide::rim)
-            return;
-        Wall& of = walls[part.root(wall.face)];
-        auto& edge = side(skin) == SheetSide::outer ? of.outer : of.inner;
-        edge[wall.forward ? wall.low : wall.high] = wall.forward ? wall.high : wall.low;
-    });
-    return walls;
-}
 
 /// The vertices of an edge, one after the other; nothing if it is not one closed row.
 std::optional<std::vector<int>> row_of(const std::map<int, int>& edge)
@@ -136,7 +101,7 @@ std::optional<Eigen::Vector3d> between_vertices(const Polygon& from, const Polyg
 
 /// Whether a wall is straight in a direction, but for facets whose corners are not opposite to each
 /// other.
-bool leads_along(const TriMesh& solid, const Wall& wall, const Eigen::Vector3d& way)
+bool leads_along(const TriMesh& solid, const SheetWall& wall, const Eigen::Vector3d& way)
 {
     constexpr double most = 0.3; // sine
     return std::ranges::all_of(wall.face, [&](int f) {
@@ -147,10 +112,10 @@ bool leads_along(const TriMesh& solid, const Wall& wall, const Eigen::Vector3d& 
 }
 
 /// Of the wall of an oblique hole in a flat; nothing if it is none.
-std::optional<ObliqueHole> oblique_hole(const TriMesh& solid, const ThinSolid& sheet, const Wall& wall,
+std::optional<ObliqueHole> oblique_hole(const TriMesh& solid, const ThinSolid& sheet, const SheetWall& wall,
                                         const std::vector<StatedSurface>& surface)
 {
-    const auto outer = row_of(wall.outer), inner = row_of(wall.inner);
+    const auto outer = row_of(wall.outer.next), inner = row_of(wall.inner.next);
     if (!outer || !inner)
         return std::nullopt;
     const double t = sheet.thickness;
@@ -185,7 +150,7 @@ std::vector<ObliqueHole> oblique_holes(const TriMesh& solid, const ThinSolid& sh
                                        const std::vector<StatedSurface>& surface)
 {
     std::vector<ObliqueHole> holes;
-    for (const auto& [face, wall] : walls_of(solid, sheet))
+    for (const SheetWall& wall : sheet_walls(solid, sheet))
         if (auto hole = oblique_hole(solid, sheet, wall, surface))
             holes.push_back(std::move(*hole));
     return holes;

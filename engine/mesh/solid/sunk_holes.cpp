@@ -11,85 +11,21 @@
 #include <set>
 #include <utility>
 
-#include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_graph.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/solid/cut_off_holes.h"
 #include "engine/mesh/solid/move_in_flats.h"
 #include "engine/mesh/solid/round_edge.h"
 #include "engine/mesh/solid/round_holes.h"
+#include "engine/mesh/solid/sheet_walls.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
 
-/// Where faces across the thickness that hang together meet one skin.
-struct Edge {
-    std::vector<int> vertex; ///< of the solid, ascending
-    std::vector<int> skin;   ///< triangles of the skin
-    std::vector<int> wall;   ///< triangles across the thickness
-};
-
-/// All faces across the thickness that hang together.
-struct Wall {
-    std::vector<int> face;   ///< ascending
-    std::vector<int> vertex; ///< of the solid, ascending
-    Edge outer, inner;
-};
-
-void make_set(std::vector<int>& values)
-{
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-/// In the order of their first triangles.
-std::vector<Wall> walls_of(const TriMesh& solid, const ThinSolid& sheet)
-{
-    const auto rim = [&](int f) { return sheet.side[size_t(f)] == SheetSide::rim; };
-    const std::vector<EdgeUse> uses = edge_uses(solid.triangle);
-    DisjointSets together(size_t(solid.triangles()));
-    const auto each_edge = [&](const auto& visit) {
-        for_each_edge(uses, [&](size_t begin, size_t end) {
-            if (end == begin + 2)
-                visit(uses[begin], uses[begin + 1]);
-        });
-    };
-    each_edge([&](const EdgeUse& a, const EdgeUse& b) {
-        if (rim(a.face) && rim(b.face))
-            together.join(a.face, b.face);
-    });
-    std::map<int, size_t> number;
-    std::vector<Wall> walls;
-    for (int f = 0; f < solid.triangles(); ++f) {
-        if (!rim(f))
-            continue;
-        const auto [at, added] = number.try_emplace(together.root(f), walls.size());
-        if (added)
-            walls.emplace_back();
-        walls[at->second].face.push_back(f);
-        for (const int v : solid.triangle.col(f))
-            walls[at->second].vertex.push_back(v);
-    }
-    each_edge([&](const EdgeUse& a, const EdgeUse& b) {
-        if (rim(a.face) == rim(b.face))
-            return;
-        const int wall = rim(a.face) ? a.face : b.face, skin = rim(a.face) ? b.face : a.face;
-        Wall& found = walls[number.at(together.root(wall))];
-        Edge& edge = sheet.side[size_t(skin)] == SheetSide::outer ? found.outer : found.inner;
-        edge.vertex.insert(edge.vertex.end(), {a.low, a.high});
-        edge.skin.push_back(skin);
-        edge.wall.push_back(wall);
-    });
-    for (Wall& wall : walls)
-        for (std::vector<int>* values : {&wall.vertex, &wall.outer.vertex, &wall.inner.vertex})
-            make_set(*values);
-    return walls;
-}
-
 /// The circle that an edge is on plane skin which lies around it, its axis outwards; none: it is
 /// another thing.
-std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Edge& edge,
+std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const WallEdge& edge,
                                         double thickness)
 {
     constexpr double plane = 1 - 1e-6, same = 1e-3; // 0.1 degrees; of the thickness
@@ -110,13 +46,13 @@ std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matri
     return beyond > 0 ? circle : std::nullopt;
 }
 
-std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Wall& wall, SheetSide side,
-                             double thickness)
+std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const SheetWall& wall,
+                             SheetSide side, double thickness)
 {
     constexpr double same = 1e-3,
                      wider = 0.02; // of the thickness; a hole that was punched is wider at one side
                                    // by less
-    const Edge& edge = side == SheetSide::outer ? wall.outer : wall.inner;
+    const WallEdge& edge = wall.edge(side);
     const std::optional<RoundEdge> circle = circle_through(solid, normal, edge, thickness);
     if (!circle)
         return std::nullopt;
@@ -210,7 +146,7 @@ std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
     const std::array<std::set<int>, 2> pinched{pinched_at(solid, sheet, SheetSide::inner),
                                                pinched_at(solid, sheet, SheetSide::outer)};
     std::vector<std::vector<int>> others;
-    for (Wall& wall : walls_of(solid, sheet)) {
+    for (SheetWall& wall : sheet_walls(solid, sheet)) {
         if (std::ranges::any_of(wall.face, [&](int f) { return cut_off[size_t(f)] != 0; }))
             continue;
         if (wall.outer.vertex.empty() || wall.inner.vertex.empty())
@@ -218,7 +154,7 @@ std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
         const size_t before = holes.size();
         for (const SheetSide side : {SheetSide::outer, SheetSide::inner})
             if (auto hole = sunk(solid, normal, wall, side, sheet.thickness)) {
-                const Edge& edge = side == SheetSide::outer ? wall.outer : wall.inner;
+                const WallEdge& edge = wall.edge(side);
                 hole->touching = std::ranges::any_of(
                     edge.vertex, [&](int v) { return pinched[side == SheetSide::outer].contains(v); });
                 add(*hole);
