@@ -1,6 +1,7 @@
 #include "engine/mesh/solid/beside_solid.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,6 +25,10 @@ public:
         : solid_(solid), neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))), rays_(solid),
           half_(thickness / 2)
     {
+        double volume = 0;
+        for (int f = 0; f < solid.triangles(); ++f)
+            volume += corners(f).determinant();
+        inside_out_ = volume < 0;
     }
 
     /// Whether the line square to the sheet through a place so far outwards meets matter within the
@@ -91,7 +96,7 @@ private:
     bool matter(const Eigen::Vector3d& place, const Eigen::Vector3d& half) const
     {
         const RayHit hit = rays_.first(place + half, -2 * half);
-        return hit.face >= 0 && (hit.distance <= 1 || normal(hit.face).dot(half) < 0);
+        return hit.face >= 0 && (hit.distance <= 1 || (normal(hit.face).dot(half) < 0) != inside_out_);
     }
 
     Eigen::Matrix3d corners(int face) const
@@ -126,7 +131,8 @@ private:
     const TriMesh& solid_;
     Eigen::Matrix3Xi neighbour_; ///< as face_neighbours() says
     RayPicker rays_;
-    double half_; ///< mm
+    double half_;             ///< mm
+    bool inside_out_ = false; ///< its normals lead inwards
 };
 
 /// Where the solid ends from a place outwards, mm; `most` at most.
