@@ -232,6 +232,7 @@ Remarks on_border(const TriMesh& middle, const TriMesh& solid, double thickness,
     if (off.empty())
         return remarks;
     std::vector<Eigen::Vector3d> places;
+    places.reserve(off.size());
     for (const BesideSolid& row : off)
         places.push_back(row.place);
     const auto distance = [](const BesideSolid& row) { return std::abs(row.beside); };
