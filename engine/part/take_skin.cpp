@@ -447,7 +447,7 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     const LaidSkin laid = laid_skin(part.mesh, sheet, holes, sinks, options.skin, faces_of(part, normals, surface));
     add(part, laid.remarks);
     if (laid.kind == Skin::middle)
-        add(part, on_border(laid.skin.mesh, part.mesh, sheet.thickness, part.cad ? part.cad->deflection : 0));
+        add(part, on_border(laid.skin.mesh, examined.mesh, sheet.thickness, part.cad ? part.cad->deflection : 0));
     const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.skin.side, surface);
     add(part, uneven);
     add(part, on_open_sinks(sinks, laid.kind, laid.skin.side));

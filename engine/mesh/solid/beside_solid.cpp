@@ -154,29 +154,35 @@ double to_the_end(const Section& section, const BorderPlace& at, double first, d
     return (from + to) / 2;
 }
 
-/// Per vertex of a boundary loop how far it is beside the border of the solid, mm; 0: it is not.
-std::vector<double> beside(const std::vector<int>& loop, const TriMesh& middle, const Eigen::Matrix3Xd& normal,
-                           const Section& section, double tolerance, double most)
+/// Of the vertices of a boundary loop, and in between of the middles of its edges: a corner may be
+/// beside its place along one of the walls that meet there.
+std::vector<BorderPlace> places_of(const std::vector<int>& loop, const TriMesh& middle, const Eigen::Matrix3Xd& normal)
 {
-    std::vector<double> result;
-    const auto place = [&](size_t k) { return middle.position.col(loop[k % loop.size()]); };
+    std::vector<BorderPlace> result;
+    const auto place = [&](size_t k) { return Eigen::Vector3d(middle.position.col(loop[k % loop.size()])); };
     for (size_t i = 0; i < loop.size(); ++i) {
-        const Eigen::Vector3d here = place(i), n = normal.col(loop[i]),
+        const Eigen::Vector3d here = place(i), next = place(i + 1), n = normal.col(loop[i]),
                               before = (here - place(i + loop.size() - 1)).cross(n).normalized(),
-                              after = (place(i + 1) - here).cross(n).normalized();
-        const BorderPlace at{here, n, (before + after).normalized()};
+                              after = (next - here).cross(n).normalized();
         constexpr double cusp = 0.26; // cosine of 75 degrees
         const bool judged = (before + after).norm() > 2 * cusp;
-        if (!judged || section.ends(at, tolerance)) {
-            result.push_back(0);
-            continue;
-        }
-        constexpr double nearby = 8; // tolerances
-        const double within = tolerance + section.facets(at, nearby * tolerance);
-        const double end = to_the_end(section, at, tolerance, most);
-        result.push_back(section.ends(at, within) || section.halfway_along_a_wall(at, end, within) ? 0 : end);
+        const Eigen::Vector3d outward = judged ? (before + after).normalized() : Eigen::Vector3d::Zero();
+        result.push_back({here, n, outward});
+        const Eigen::Vector3d between = (n + normal.col(loop[(i + 1) % loop.size()])).normalized();
+        result.push_back({(here + next) / 2, between, (next - here).cross(between).normalized()});
     }
     return result;
+}
+
+/// How far a place is beside the border of the solid, mm; 0: it is not.
+double beside(const BorderPlace& at, const Section& section, double tolerance, double most)
+{
+    if (at.outward.isZero() || section.ends(at, tolerance))
+        return 0;
+    constexpr double nearby = 8; // tolerances
+    const double within = tolerance + section.facets(at, nearby * tolerance);
+    const double end = to_the_end(section, at, tolerance, most);
+    return section.ends(at, within) || section.halfway_along_a_wall(at, end, within) ? 0 : end;
 }
 
 } // namespace
@@ -188,14 +194,18 @@ std::vector<BesideSolid> beside_solid(const TriMesh& middle, const TriMesh& soli
     const Eigen::Matrix3Xd normal = vertex_normals(middle);
     constexpr double most = 8; // thicknesses that are looked at
     for (const std::vector<int>& loop : boundary_loops(middle)) {
-        const std::vector<double> off = beside(loop, middle, normal, section, tolerance, most * thickness);
+        const std::vector<BorderPlace> places = places_of(loop, middle, normal);
+        std::vector<double> off;
+        off.reserve(places.size());
+        for (const BorderPlace& at : places)
+            off.push_back(beside(at, section, tolerance, most * thickness));
         // no row runs over the end of the loop
         const auto first = std::ranges::find(off, 0.0) - off.begin();
         const size_t start = first == std::ssize(off) ? 0 : size_t(first);
         bool in_row = false;
-        for (size_t k = 0; k < loop.size(); ++k) {
-            const size_t i = (start + k) % loop.size();
-            const BesideSolid here{middle.position.col(loop[i]), off[i]};
+        for (size_t k = 0; k < off.size(); ++k) {
+            const size_t i = (start + k) % off.size();
+            const BesideSolid here{places[i].place, off[i]};
             if (off[i] != 0 && !in_row)
                 result.push_back(here);
             else if (off[i] != 0 && std::abs(off[i]) > std::abs(result.back().beside))

@@ -5,10 +5,10 @@
 
 namespace spia {
 
-/// A row of neighbouring vertices of a middle surface's border that is not at the border of its
-/// solid.
+/// A row of neighbouring vertices and edges of a middle surface's border that is not at the border
+/// of its solid.
 struct BesideSolid {
-    Eigen::Vector3d place; ///< mm, of the vertex that is farthest from it
+    Eigen::Vector3d place; ///< mm, of what is farthest from it
     double beside;         ///< mm along the surface; > 0: the solid goes on, < 0: it ends before.
                            ///< 8 thicknesses at most
 };
