@@ -20,17 +20,19 @@ bool unrolls(const PartFile& part)
     return curvature_off_bends(part) < bent;
 }
 
+PartFile excused(PartFile part)
+{
+    if (std::erase_if(part.doctor.findings, [](const Finding& f) { return f.fault == Fault::sliver; }))
+        part.notes.push_back(
+            "the long narrow triangles lie along the rulings of a developable surface and do not affect the strains");
+    return part;
+}
+
 } // namespace
 
 PartFile excuse_needles(PartFile part)
 {
-    const auto needle = [](const Finding& f) { return f.fault == Fault::sliver; };
-    if (std::ranges::any_of(part.doctor.findings, needle) && unrolls(part)) {
-        std::erase_if(part.doctor.findings, needle);
-        part.notes.push_back(
-            "the long narrow triangles lie along the rulings of a developable surface and do not affect the strains");
-    }
-    return part;
+    return part.doctor.find(Fault::sliver) && unrolls(part) ? excused(std::move(part)) : std::move(part);
 }
 
 PartFile remesh_needles(PartFile part, std::optional<double> deflection, const Progress& progress)
@@ -39,7 +41,7 @@ PartFile remesh_needles(PartFile part, std::optional<double> deflection, const P
     if (triangle_quality(part.mesh).least_angle_of_99 > needle)
         return part;
     if (unrolls(part))
-        return excuse_needles(std::move(part));
+        return excused(std::move(part));
     try {
         RemeshOptions remesh;
         if (deflection) // the mesh is to be as close again; not coarser than by default, nor finer
