@@ -19,6 +19,7 @@ struct BorderPlace {
     Eigen::Vector3d place, normal, outward;
 };
 
+/// A solid, as lines square to its sheet cut it.
 class Section {
 public:
     Section(const TriMesh& solid, double thickness)

@@ -106,5 +106,23 @@ TEST(BesideSolid, FindsAnAskewWallThatIsNotMetHalfway)
     }
 }
 
+TEST(BesideSolid, FindsACornerThatIsBesideItsPlaceAlongAWall)
+{
+    // A line through the corner leaves the solid by the other wall: the edge is seen to be slanted.
+    for (const double thickness : {0.8, 4.}) {
+        const TriMesh outer = shapes::rectangle(100, 60, 1, 1);
+        Eigen::Matrix3Xd inwards = Eigen::Matrix3Xd::Zero(3, outer.vertices());
+        inwards.row(2).setConstant(-thickness);
+        TriMesh middle = outer;
+        middle.position += inwards / 2;
+        Eigen::Index corner;
+        middle.position.colwise().sum().maxCoeff(&corner);
+        middle.position(0, corner) -= 0.25 * thickness;
+        const auto off = beside_solid(middle, shapes::thickened(outer, inwards), thickness, 0.02 * thickness);
+        ASSERT_EQ(off.size(), 1u);
+        EXPECT_NEAR(off[0].beside, 0.125 * thickness, 0.01 * thickness);
+    }
+}
+
 } // namespace
 } // namespace spia
