@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
+#include "engine/mesh/orient2d.h"
 #include "engine/mesh/vectors.h"
 
 namespace spia {
@@ -120,15 +123,12 @@ private:
 /// Triangles that know their neighbours: edge k of a triangle runs from corner k to corner k + 1.
 class Patch {
 public:
-    Patch(const Eigen::Matrix2Xd& outline, std::vector<Triangle> triangles) : triangle_(std::move(triangles))
+    /// @param spacing  wanted around each point
+    Patch(const Eigen::Matrix2Xd& point, std::vector<double> spacing, std::vector<Triangle> triangles)
+        : spacing_(std::move(spacing)), triangle_(std::move(triangles))
     {
-        const int n = int(outline.cols());
-        for (int i = 0; i < n; ++i) {
-            point_.push_back(outline.col(i));
-            const double before = (outline.col(i) - outline.col((i + n - 1) % n)).norm();
-            const double after = (outline.col((i + 1) % n) - outline.col(i)).norm();
-            spacing_.push_back((before + after) / 2);
-        }
+        for (const auto& p : point.colwise())
+            point_.emplace_back(p);
         std::map<std::pair<int, int>, int> face_of_edge;
         for (int t = 0; t < int(triangle_.size()); ++t)
             for (int k = 0; k < 3; ++k)
@@ -255,19 +255,137 @@ private:
     }
 
     std::vector<Point> point_;
-    std::vector<double> spacing_; // wanted around the point
+    std::vector<double> spacing_;
     std::vector<Triangle> triangle_;
     std::vector<std::array<int, 3>> neighbour_; // -1 beyond the outline
 };
 
+/// Whether two segments have a place in common that is none of their ends.
+bool cross_each_other(const Point& a, const Point& b, const Point& c, const Point& d)
+{
+    if (a == c || a == d || b == c || b == d)
+        return false;
+    const int at_c = orient2d(a, b, c), at_d = orient2d(a, b, d), at_a = orient2d(c, d, a), at_b = orient2d(c, d, b);
+    return at_c * at_d <= 0 && at_a * at_b <= 0 && (at_c != 0 || at_d != 0);
+}
+
+/// A polygon with holes as one row of its points, which goes along lines to the holes and back.
+class JoinedRings {
+public:
+    explicit JoinedRings(const std::vector<Eigen::Matrix2Xd>& rings)
+    {
+        for (const Eigen::Matrix2Xd& ring : rings) {
+            ring_.emplace_back();
+            for (const auto& p : ring.colwise()) {
+                ring_.back().push_back(int(point_.size()));
+                point_.emplace_back(p);
+            }
+        }
+    }
+    const std::vector<Point>& points() const { return point_; }
+
+    /// Numbers of the points; empty if a hole cannot be joined.
+    std::vector<int> row() const
+    {
+        std::vector<int> row = ring_.front();
+        std::vector<char> joined(ring_.size(), 0);
+        joined[0] = 1;
+        for (size_t left = ring_.size() - 1; left > 0; --left) {
+            double best = std::numeric_limits<double>::infinity();
+            size_t at = 0, hole = 0, start = 0;
+            for (size_t h = 1; h < ring_.size(); ++h)
+                for (size_t k = 0; !joined[h] && k < ring_[h].size(); ++k)
+                    for (size_t i = 0; i < row.size(); ++i) {
+                        const double length = (point(row[i]) - point(ring_[h][k])).norm();
+                        if (length < best && leads_inside(row, i, ring_[h][k]) &&
+                            free(row, joined, row[i], ring_[h][k])) {
+                            best = length;
+                            at = i;
+                            hole = h;
+                            start = k;
+                        }
+                    }
+            if (hole == 0)
+                return {};
+            joined[hole] = 1;
+            std::vector<int> along;
+            for (size_t k = 0; k <= ring_[hole].size(); ++k)
+                along.push_back(ring_[hole][(start + k) % ring_[hole].size()]);
+            along.push_back(row[at]);
+            row.insert(row.begin() + std::ptrdiff_t(at) + 1, along.begin(), along.end());
+        }
+        return row;
+    }
+
+private:
+    std::vector<Point> point_;
+    std::vector<std::vector<int>> ring_;
+
+    const Point& point(int i) const { return point_[size_t(i)]; }
+
+    /// From a corner of the row into the sheet.
+    bool leads_inside(const std::vector<int>& row, size_t i, int to) const
+    {
+        const Point &before = point(row[(i + row.size() - 1) % row.size()]), &at = point(row[i]),
+                    &after = point(row[(i + 1) % row.size()]), &goal = point(to);
+        const bool left = orient2d(at, after, goal) > 0, right = orient2d(before, at, goal) > 0;
+        return orient2d(before, at, after) > 0 ? left && right : left || right;
+    }
+
+    bool free(const std::vector<int>& row, const std::vector<char>& joined, int from, int to) const
+    {
+        const auto met = [&](const std::vector<int>& ring) {
+            for (size_t i = 0; i < ring.size(); ++i)
+                if (cross_each_other(point(from), point(to), point(ring[i]), point(ring[(i + 1) % ring.size()])))
+                    return true;
+            return false;
+        };
+        if (met(row))
+            return false;
+        for (size_t h = 1; h < ring_.size(); ++h)
+            if (!joined[h] && met(ring_[h]))
+                return false;
+        return true;
+    }
+};
+
 } // namespace
+
+PlanarMesh triangulate_polygon(const std::vector<Eigen::Matrix2Xd>& rings)
+{
+    const JoinedRings joined(rings);
+    const std::vector<Point>& points = joined.points();
+    PlanarMesh none{Eigen::Matrix2Xd(2, points.size()), Eigen::Matrix3Xi(3, 0)};
+    for (size_t i = 0; i < points.size(); ++i)
+        none.position.col(Eigen::Index(i)) = points[i];
+    const std::vector<int> row = joined.row();
+    if (row.size() < 3)
+        return none;
+    const Eigen::Matrix2Xd outline = none.position(Eigen::all, row);
+    std::vector<Triangle> ears = EarClipper(outline).clip();
+    if (ears.empty())
+        return none;
+    for (Triangle& ear : ears)
+        for (int& corner : ear)
+            corner = row[size_t(corner)];
+    Patch patch(none.position, std::vector<double>(points.size(), 0), std::move(ears));
+    patch.make_delaunay();
+    return patch.all_positive() ? patch.mesh() : none;
+}
 
 PlanarMesh mesh_polygon(const Eigen::Matrix2Xd& outline)
 {
     std::vector<Triangle> ears = EarClipper(outline).clip();
     if (ears.empty())
         return {outline, Eigen::Matrix3Xi(3, 0)};
-    Patch patch(outline, std::move(ears));
+    const Eigen::Index n = outline.cols();
+    std::vector<double> spacing;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double before = (outline.col(i) - outline.col((i + n - 1) % n)).norm();
+        const double after = (outline.col((i + 1) % n) - outline.col(i)).norm();
+        spacing.push_back((before + after) / 2);
+    }
+    Patch patch(outline, std::move(spacing), std::move(ears));
     patch.make_delaunay();
     if (!patch.all_positive())
         return {outline, Eigen::Matrix3Xi(3, 0)};

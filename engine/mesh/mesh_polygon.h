@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 namespace spia {
 
@@ -16,5 +17,12 @@ struct PlanarMesh {
 /// mesh
 /// @return without triangles if the outline crosses itself, runs clockwise or has no area
 PlanarMesh mesh_polygon(const Eigen::Matrix2Xd& outline);
+
+/// Triangles of the inside of a polygon with holes, between its points alone: each hole is joined
+/// to what is around it by the shortest free line, then ears are cut; Delaunay throughout.
+/// @param rings 2 by n each, n >= 3: the outline counter-clockwise, then the holes clockwise; their
+/// points become the vertices of the mesh, in this order
+/// @return without triangles if rings cross each other or themselves, or a hole is not inside
+PlanarMesh triangulate_polygon(const std::vector<Eigen::Matrix2Xd>& rings);
 
 } // namespace spia
