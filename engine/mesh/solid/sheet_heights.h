@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "engine/mesh/closest_point.h"
@@ -31,16 +32,29 @@ public:
         const ClosestPoint near = nearest(v);
         if (near.face < 0)
             return within_;
-        const auto corner = [&](int k) { return other_.position.col(other_.triangle(k, near.face)); };
-        const Eigen::Vector3d below = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-        return std::abs(below.dot(normal)) > parallel ? std::abs((position_.col(v) - near.position).dot(normal))
-                                                      : (*this)(v);
+        return std::abs(this->normal(near.face).dot(normal)) > parallel
+                   ? std::abs((position_.col(v) - near.position).dot(normal))
+                   : (*this)(v);
     }
     double operator()(int v)
     {
         if (known_[size_t(v)] < 0)
             known_[size_t(v)] = std::min(nearest(v).distance, within_);
         return known_[size_t(v)];
+    }
+    /// mm, of any vertex square to the triangle of the other skin that is nearest: that is askew below
+    /// where the other skin has a hole or a step opposite.
+    double over_nearest(int v) const
+    {
+        const ClosestPoint near = nearest(v);
+        return near.face < 0 ? within_ : std::abs((position_.col(v) - near.position).dot(normal(near.face)));
+    }
+    /// mm, of a vertex beside a skin itself: out of the plane of its nearest triangle, the way that
+    /// the triangle looks; nothing where none is so near.
+    std::optional<double> out_of_nearest(int v) const
+    {
+        const ClosestPoint near = nearest(v);
+        return near.face < 0 ? std::nullopt : std::optional((position_.col(v) - near.position).dot(normal(near.face)));
     }
 
 private:
@@ -53,11 +67,50 @@ private:
         return {mesh.position, mesh.triangle(Eigen::all, faces)};
     }
 
+    Eigen::Vector3d normal(int face) const
+    {
+        const auto corner = [&](int k) { return other_.position.col(other_.triangle(k, face)); };
+        return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    }
+
     const Eigen::Matrix3Xd& position_;
     TriMesh other_;
     ClosestPointSearch search_;
     double within_; ///< mm
     std::vector<double> known_;
+};
+
+/// How far vertices of a solid are above a skin, outwards: by how far they are off the other skin;
+/// where that has a broad step opposite, by the skin itself.
+class HeightAboveSkin {
+public:
+    /// @param own_skin, other_skin  tell of a triangle whether it is one of that
+    /// @param flipped  -1 if the triangles are seen from inside
+    template <class Own, class Other>
+    HeightAboveSkin(const TriMesh& mesh, const Own& own_skin, const Other& other_skin, double thickness, double flipped)
+        : other_(mesh, other_skin, 2 * thickness), own_(mesh, own_skin, broadest * thickness), thickness_(thickness),
+          flipped_(flipped)
+    {
+    }
+    SheetHeights& over_other() { return other_; }
+
+    /// mm
+    double operator()(int v) const
+    {
+        return other_.nearest(v).face < 0 ? above_own(v) : other_.over_nearest(v) - thickness_;
+    }
+    /// mm, of a vertex of a floor that looks this way, unit
+    double of_floor(int v, const Eigen::Vector3d& normal)
+    {
+        return other_.nearest(v).face < 0 ? above_own(v) : other_.square_to(v, normal) - thickness_;
+    }
+
+private:
+    static constexpr double broadest = 10; // thicknesses: steps along a border are not broader
+    SheetHeights other_, own_;
+    double thickness_, flipped_;
+
+    double above_own(int v) const { return flipped_ * own_.out_of_nearest(v).value_or(thickness_); }
 };
 
 } // namespace spia

@@ -131,8 +131,9 @@ SkinAt skin_at_vertices(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, con
 
 /// The most at the feet of its walls: of the steepest way up to the skin from there its height; on
 /// a bend, whose chords' normals are off, its length if it goes straight up. Else how far the foot
-/// is off the other skin.
-double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& skin, SheetHeights& height,
+/// is off the level of its own.
+/// @param above  mm, a vertex over that level
+double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& skin, const HeightAboveSkin& above,
                      double thickness)
 {
     constexpr double straight =
@@ -162,13 +163,42 @@ double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& s
                     }
             }
         for (const auto& [v, way] : up) {
-            const double off = std::abs(height(v) - thickness);
+            const double off = std::abs(above(v));
             const double high = !way.plane && way.cosine > straight ? way.length : way.cosine * way.length;
             const bool by_wall = high > 0 && std::abs(high - off) < 0.25 * off + 4 * chords_off_bends * thickness;
             most = std::max(most, by_wall ? high : off);
         }
     }
     return most;
+}
+
+/// -1 if the triangles look inwards. @param normal  area vectors outwards
+double turned_outwards(const TriMesh& mesh, const Eigen::Matrix3Xd& normal)
+{
+    Eigen::Index largest = 0;
+    normal.colwise().squaredNorm().maxCoeff(&largest);
+    const auto t = mesh.triangle.col(largest);
+    const Eigen::Vector3d a = mesh.position.col(t[0]);
+    return (mesh.position.col(t[1]) - a).cross(mesh.position.col(t[2]) - a).dot(normal.col(largest)) < 0 ? -1 : 1;
+}
+
+/// Of a groove with two ends at the rim, the share of its outline there; a chamfer has about half.
+constexpr double most_rim = 0.25;
+
+/// Takes chamfers of the border off pieces that may be of marks: else one beside a step would be a
+/// wall of that.
+void leave_chamfers(const SurfacePieces& pieces, const std::vector<PieceSide>& side, const std::vector<char>& main,
+                    PieceSide skin, std::vector<char>& level)
+{
+    std::vector<double> along_rim(level.size(), 0), whole(level.size(), 0);
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
+            whole[size_t(p)] += c.length();
+            if (!level[size_t(q)] && !(main[size_t(q)] && side[size_t(q)] == skin))
+                along_rim[size_t(p)] += c.length();
+        }
+    for (size_t p = 0; p < level.size(); ++p)
+        level[p] &= side[p] == skin || along_rim[p] < most_rim * whole[p];
 }
 
 void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const SurfacePieces& pieces,
@@ -180,18 +210,22 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
         !has_triangles(pieces, main, side, other_of(skin)))
         return;
     const auto piece = [&](int f) { return size_t(pieces.piece[size_t(f)]); };
-    SheetHeights height(
-        mesh, [&](int f) { return main[piece(f)] && side[piece(f)] == other_of(skin); }, 2 * thickness);
+    HeightAboveSkin above_skin(
+        mesh, [&](int f) { return main[piece(f)] && side[piece(f)] == skin; },
+        [&](int f) { return main[piece(f)] && side[piece(f)] == other_of(skin); }, thickness,
+        turned_outwards(mesh, normal));
     std::vector<double> off(size_t(pieces.count()), 0), raised(size_t(pieces.count()), 0);
     for (int f = 0; f < mesh.triangles(); ++f)
         for (int k = 0; k < 3 && level[piece(f)]; ++k) {
             const int v = mesh.triangle(k, f);
-            const bool wall = side[piece(f)] != skin;
-            const double above = (wall ? height(v) : height.square_to(v, normal.col(f).normalized())) - thickness;
+            const double above =
+                side[piece(f)] == skin ? above_skin.of_floor(v, normal.col(f).normalized()) : above_skin(v);
             off[piece(f)] = std::max(off[piece(f)], std::abs(above));
             raised[piece(f)] += above * normal.col(f).norm();
             level[piece(f)] = off[piece(f)] <= (deepest_mark + chords_off_bends) * thickness;
         }
+
+    leave_chamfers(pieces, side, main, skin, level);
 
     DisjointSets together(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
@@ -222,7 +256,7 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
             group.off |= !skin_at.has(v);
             group.floor |= side[piece(f)] == skin && !skin_at.has(v) && !at_rim[size_t(v)];
             below &= !skin_at.has(v);
-            depth[k] = below ? height.square_to(v, normal.col(f).normalized()) - thickness : 0;
+            depth[k] = below ? above_skin.of_floor(v, normal.col(f).normalized()) : 0;
         }
         constexpr double even = 0.1; // of the depth: facets of a rounding are not
         group.floor |= below && depth.maxCoeff() - depth.minCoeff() < even * std::abs(depth.mean());
@@ -235,8 +269,6 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
                 (reaches ? group.along_skin : group.along_rim) += c.length();
                 group.smoothly += reaches ? c.smooth : 0;
             }
-    constexpr double most_rim =
-        0.25; // of a groove with two ends at the rim; a chamfer has about half of its outline there
     std::map<int, int> number;
     std::vector<SheetMark> found_marks;
     for (const auto& [root, group] : groups)
@@ -259,7 +291,7 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
     }
     for (const auto& [root, i] : number) {
         SheetMark& mark = found_marks[size_t(i)];
-        mark.depth = depth_of_mark(mesh, mark, skin_at, height, thickness);
+        mark.depth = depth_of_mark(mesh, mark, skin_at, above_skin, thickness);
         constexpr double rounding = 1e-3; // of the depth; pieces had to do with heights over chords
         if (mark.depth > (1 + rounding) * deepest_mark * thickness)
             continue;
@@ -295,12 +327,12 @@ double depth_of(const TriMesh& mesh, const SurfacePieces& pieces, const std::vec
     if (!has_triangles(pieces, main, side, other_of(skin)))
         return 0;
     const auto piece = [&](int f) { return size_t(pieces.piece[size_t(f)]); };
-    SheetHeights height(
+    const SheetHeights height(
         mesh, [&](int f) { return main[piece(f)] && side[piece(f)] == other_of(skin); }, 10 * thickness);
     double most = 0;
     for (int f = 0; f < mesh.triangles(); ++f)
         for (int k = 0; k < 3 && chosen[piece(f)]; ++k)
-            most = std::max(most, std::abs(height(mesh.triangle(k, f)) - thickness));
+            most = std::max(most, std::abs(height.over_nearest(mesh.triangle(k, f)) - thickness));
     return most;
 }
 

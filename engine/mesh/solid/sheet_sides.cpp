@@ -145,6 +145,7 @@ std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<O
                 facing[std::minmax(p, q)] += at.area;
         }
     std::vector<Relation> result;
+    result.reserve(facing.size());
     for (const auto& [pair, area] : facing)
         result.push_back({area, pair.first, pair.second, true, false});
     for (const PieceContact& contact : pieces.contact)
@@ -235,10 +236,10 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
 /// Pieces that are not sure, by what looks at them from behind: the outer faces of thick sheet lie
 /// opposite to the inner ones with the part that is not in a corner only, those of a thick tube
 /// with the share of the inner radius in the outer one. What touches the side that looks at it is
-/// none.
+/// none, and what goes over into the faces across smoothly is a rounding of the border.
 /// @returns whether one was
-bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, const std::vector<double>& sloped,
-                  double thickness, Side& side)
+bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, const std::vector<double>& share,
+                  const std::vector<double>& sloped, double thickness, Side& side)
 {
     constexpr double least = 0.1; // of its area
     std::vector<std::array<double, 2>> looked(size_t(pieces.count()), {0, 0});
@@ -247,13 +248,19 @@ bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& plac
             if (const int s = side[size_t(pieces.piece[size_t(at.face)])]; s >= 0)
                 looked[size_t(pieces.piece[size_t(at.hit)])][size_t(s)] += at.area;
     std::vector<char> touches(size_t(pieces.count()), 0); // 1 one, 2 other
+    std::vector<double> around(size_t(pieces.count()), 0), into_rim(size_t(pieces.count()), 0);
     for (const PieceContact& c : pieces.contact)
-        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
             touches[size_t(p)] |= side[size_t(q)] >= 0 ? side[size_t(q)] + 1 : 0;
+            around[size_t(p)] += c.length();
+            into_rim[size_t(p)] += side[size_t(q)] < 0 && share[size_t(q)] < least ? c.smooth : 0;
+        }
+    constexpr double rounding = 0.25; // of its outline; of one along a straight border about half
     bool settled = false;
     for (int p = 0; p < pieces.count(); ++p) {
         const auto [one, other] = looked[size_t(p)];
         if (side[size_t(p)] != -1 || sloped[size_t(p)] > mostly_sloped ||
+            into_rim[size_t(p)] > rounding * around[size_t(p)] ||
             std::max(one, other) < least * pieces.area[size_t(p)] ||
             std::min(one, other) > least * std::max(one, other) || (touches[size_t(p)] & (one > other ? 1 : 2)))
             continue;
@@ -289,7 +296,7 @@ SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>&
     Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
     for (size_t p = 0; p < side.size(); ++p)
         side[p] = across_it[p] ? none : side[p];
-    while (settle_faced(pieces, places, steep, thickness, side) || settle_groups(pieces, share, sloped, side)) {
+    while (settle_faced(pieces, places, share, steep, thickness, side) || settle_groups(pieces, share, sloped, side)) {
     }
 
     double whole = 0, same = 0, most = 0;

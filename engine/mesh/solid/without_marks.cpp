@@ -13,6 +13,7 @@
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/flat_triangles.h"
+#include "engine/mesh/solid/off_axis.h"
 #include "engine/mesh/solid/refilled_mark.h"
 #include "engine/mesh/solid/sheet_heights.h"
 #include "engine/mesh/solid/sheet_marks.h"
@@ -124,7 +125,8 @@ private:
     struct FloorVertex {
         int v, floor; ///< floor: root of floors_
         Eigen::Vector3d normal;
-        double height; ///< mm, to the level of the skin, by the distance of the other one
+        double size;   ///< mm2, of its triangles there
+        double height; ///< mm, to the level of the skin
         int over = -1; ///< the vertex of the skin straight over it
     };
 
@@ -136,13 +138,13 @@ private:
                 faces.push_back(f);
         if (faces.empty())
             return;
-        SheetHeights height(
-            solid_,
-            [&](int f) {
-                return sheet_.side[size_t(f)] != SheetSide::rim && sheet_.side[size_t(f)] != skin &&
-                       mark_[size_t(f)] < 0;
-            },
-            2 * sheet_.thickness);
+        const auto is_of = [&](int f, bool own) {
+            const SheetSide side = sheet_.side[size_t(f)];
+            return side != SheetSide::rim && (side == skin) == own && mark_[size_t(f)] < 0;
+        };
+        HeightAboveSkin above(
+            solid_, [&](int f) { return is_of(f, true); }, [&](int f) { return is_of(f, false); }, sheet_.thickness,
+            sheet_.flipped);
         for (const int f : faces)
             for (int k = 0; k < 3; ++k)
                 for (const int g : around_[size_t(corner(k, f))]) {
@@ -151,7 +153,7 @@ private:
                     if (is_floor(f) && is_floor(g) && shared)
                         floors_.join(f, g);
                 }
-        std::vector<FloorVertex> floor = floor_vertices(faces, height);
+        std::vector<FloorVertex> floor = floor_vertices(faces, above);
         const std::map<int, double> step = steps(floor);
         for (const FloorVertex& at : floor)
             if (!level_[size_t(at.v)])
@@ -160,7 +162,7 @@ private:
             for (int k = 0; k < 3; ++k)
                 if (const int v = corner(k, f);
                     is_wall(f) && !level_[size_t(v)] && !on_floor(v) && position_.col(v) == solid_.position.col(v)) {
-                    const ClosestPoint near = height.nearest(v);
+                    const ClosestPoint near = above.over_other().nearest(v);
                     if (near.face >= 0 && near.distance > 0)
                         position_.col(v) =
                             near.position + sheet_.thickness / near.distance * (solid_.position.col(v) - near.position);
@@ -172,18 +174,21 @@ private:
         return std::any_of(around_[size_t(v)].begin(), around_[size_t(v)].end(), [&](int f) { return is_floor(f); });
     }
 
-    std::vector<FloorVertex> floor_vertices(const std::vector<int>& faces, SheetHeights& height)
+    std::vector<FloorVertex> floor_vertices(const std::vector<int>& faces, HeightAboveSkin& above)
     {
         std::map<int, FloorVertex> found;
         std::map<int, std::vector<double>> heights; // of floors
         for (const int f : faces)
             for (int k = 0; k < 3 && is_floor(f); ++k) {
                 const int v = corner(k, f);
-                FloorVertex& at = found
-                                      .try_emplace(v, FloorVertex{v, floors_.root(f), Eigen::Vector3d::Zero(),
-                                                                  sheet_.thickness - height(v)})
-                                      .first->second;
-                at.normal += normal_.col(f);
+                FloorVertex& at =
+                    found.try_emplace(v, FloorVertex{v, floors_.root(f), Eigen::Vector3d::Zero(), 0, -above(v)})
+                        .first->second;
+                const double size = normal_.col(f).norm();
+                const Eigen::Vector3d own = normal_.col(f) / size;
+                at.normal +=
+                    size * (surface_.empty() ? own : normal_at(surface_[size_t(f)], solid_.position.col(v), own));
+                at.size += size;
                 heights[floors_.root(f)].push_back(at.height);
             }
         // Islands are on the skin already, and what lies around them ends there.
@@ -197,15 +202,17 @@ private:
         }
         std::vector<FloorVertex> result;
         for (auto& [v, at] : found) {
+            constexpr double rounding = 1e-9;
+            const bool plane = at.normal.norm() > (1 - rounding) * at.size;
             at.normal.normalize();
             if (!level_[size_t(v)]) {
                 at.over = straight_over(at);
                 // Of a bend triangles are chords; a vertex opposite to another one looks straight
                 // at it.
                 constexpr double exact = 1e-4, alike = 0.94;
-                const ClosestPoint near = height.nearest(v);
+                const ClosestPoint near = above.over_other().nearest(v);
                 const Eigen::Vector3d away = (solid_.position.col(v) - near.position).normalized();
-                if (near.face >= 0 && near.barycentric.maxCoeff() > 1 - exact && away.dot(at.normal) > alike)
+                if (!plane && near.face >= 0 && near.barycentric.maxCoeff() > 1 - exact && away.dot(at.normal) > alike)
                     at.normal = away;
             }
             result.push_back(at);
@@ -280,6 +287,31 @@ private:
             target_[size_t(at.v)] = over;
     }
 
+    /// A triangle of the skin that lies on the surface that one of a floor is put back into; itself:
+    /// none is known to. Whoever asks what it lies on, or on which face, is to be told that.
+    int on_skin(int f) const
+    {
+        if (!is_floor(f) || surface_.empty() || surface_[size_t(f)].kind == StatedSurface::Kind::other)
+            return f;
+        constexpr double close = 1e-3, parallel = 1 - 1e-9; // of the thickness; cosine, 0.003 degrees
+        for (int g = 0; g < solid_.triangles(); ++g) {
+            const StatedSurface& skin = surface_[size_t(g)];
+            if (mark_[size_t(g)] >= 0 || sheet_.side[size_t(g)] != sheet_.side[size_t(f)] ||
+                skin.kind != surface_[size_t(f)].kind ||
+                std::abs(skin.direction.dot(surface_[size_t(f)].direction)) < parallel)
+                continue;
+            const auto off = [&](int v) {
+                const Eigen::Vector3d p = position_.col(target_[size_t(v)]);
+                return skin.kind == StatedSurface::Kind::plane ? (p - skin.point).dot(skin.direction)
+                                                               : off_axis(skin, p).norm() - skin.radius;
+            };
+            if (std::ranges::all_of(solid_.triangle.col(f),
+                                    [&](int v) { return std::abs(off(v)) <= close * sheet_.thickness; }))
+                return g;
+        }
+        return f;
+    }
+
     PlainSolid closed_again() const
     {
         std::vector<Triangle> triangles;
@@ -300,6 +332,7 @@ private:
             }
         }
         std::vector<Eigen::Vector3d> position;
+        position.reserve(size_t(solid_.vertices()) + added_.size());
         for (int v = 0; v < solid_.vertices(); ++v)
             position.push_back(position_.col(v));
         position.insert(position.end(), added_.begin(), added_.end());
@@ -310,7 +343,6 @@ private:
         for (size_t f = 0; f < triangles.size(); ++f)
             if (!repair.removed[f]) {
                 kept.push_back(int(f));
-                result.source_face.push_back(source[f]);
                 for (const int v : triangles[f])
                     number[size_t(v)] = 0;
             }
@@ -330,7 +362,12 @@ private:
         for (size_t f = 0; f < kept.size(); ++f)
             for (int k = 0; k < 3; ++k)
                 result.mesh.triangle(k, Eigen::Index(f)) = number[size_t(triangles[size_t(kept[f])][size_t(k)])];
+        result.source_face.reserve(kept.size());
+        for (const int f : kept)
+            result.source_face.push_back(source[size_t(f)]);
         require_unfolded(result);
+        for (int& f : result.source_face)
+            f = on_skin(f);
         return result;
     }
 
