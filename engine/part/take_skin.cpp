@@ -13,6 +13,7 @@
 #include "engine/mesh/solid/beside_solid.h"
 #include "engine/mesh/solid/mark_outlines.h"
 #include "engine/mesh/solid/measured_cylinders.h"
+#include "engine/mesh/solid/onto_projection.h"
 #include "engine/mesh/solid/sheet_or_hollow.h"
 #include "engine/mesh/solid/sunk_holes.h"
 #include "engine/mesh/solid/uneven_bends.h"
@@ -222,12 +223,9 @@ struct LaidSkin {
 };
 
 /// A doubt where the edge of the blank is beside its place.
-/// @param deflection  mm, from the triangles of the solid to its CAD faces
-Remarks on_border(const TriMesh& middle, const TriMesh& solid, double thickness, double deflection)
+Remarks on_border(const TriMesh& middle, const GivenSolid& solid, double tolerance)
 {
-    constexpr double speck = 0.02; // of the thickness; right ones of coarse meshes are within 0.01
-    const std::vector<BesideSolid> off =
-        beside_solid(middle, solid, thickness, std::max(speck * thickness, deflection));
+    const std::vector<BesideSolid> off = beside_solid(middle, solid.mesh, solid.thickness, tolerance, solid.deflection);
     Remarks remarks;
     if (off.empty())
         return remarks;
@@ -444,10 +442,16 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
         sheet.thickness = stated_thickness(part.mesh, sheet, surface);
     const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
     const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
-    const LaidSkin laid = laid_skin(part.mesh, sheet, holes, sinks, options.skin, faces_of(part, normals, surface));
+    LaidSkin laid = laid_skin(part.mesh, sheet, holes, sinks, options.skin, faces_of(part, normals, surface));
     add(part, laid.remarks);
-    if (laid.kind == Skin::middle)
-        add(part, on_border(laid.skin.mesh, examined.mesh, sheet.thickness, part.cad ? part.cad->deflection : 0));
+    if (laid.kind == Skin::middle) {
+        const Surfaces stated = stated_by_cad(examined);
+        const GivenSolid given{examined.mesh, stated, sheet.thickness, sheet.flipped,
+                               part.cad ? part.cad->deflection : 0};
+        constexpr double speck = 0.02; // of the thickness; right ones of coarse meshes are within 0.01
+        onto_projection(laid.skin, surface, given, speck * sheet.thickness);
+        add(part, on_border(laid.skin.mesh, given, speck * sheet.thickness));
+    }
     const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.skin.side, surface);
     add(part, uneven);
     add(part, on_open_sinks(sinks, laid.kind, laid.skin.side));

@@ -20,6 +20,19 @@ struct BesideSolid {
 /// loops.
 /// @param thickness  mm
 /// @param tolerance  mm; what is nearer to its place is not told
-std::vector<BesideSolid> beside_solid(const TriMesh& middle, const TriMesh& solid, double thickness, double tolerance);
+/// @param deflection  mm, how far facets of the solid may be from the arcs that they stand for
+std::vector<BesideSolid> beside_solid(const TriMesh& middle, const TriMesh& solid, double thickness, double tolerance,
+                                      double deflection = 0);
+
+/// A boundary loop and how far it is beside the border of the solid.
+struct BesideLoop {
+    std::vector<int> vertex;    ///< as boundary_loops() has them
+    std::vector<double> beside; ///< mm, as BesideSolid has it; of each vertex, and then of the
+                                ///< middle of the edge from it to the next; 0: it is not
+};
+
+/// The same of every vertex and edge.
+std::vector<BesideLoop> beside_loops(const TriMesh& middle, const TriMesh& solid, double thickness, double tolerance,
+                                     double deflection = 0);
 
 } // namespace spia

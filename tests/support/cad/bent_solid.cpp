@@ -249,6 +249,22 @@ TopoDS_Shape layer(const BentSolid& solid, const Profile& profile, double left, 
     return BRepPrimAPI_MakePrism(section_face(profile, left, right), gp_Vec(0, solid.width, 0)).Shape();
 }
 
+/// What is taken away.
+TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const Rebate& rebate)
+{
+    const double side = rebate.left ? 1 : -1, t = solid.thickness, floor = side * (t / 2 - rebate.depth),
+                 beyond = side * 0.6 * t; // no faces on faces, and clear of bends' axes
+    Profile end({-t, 0}, 0);              // the first leg begins at the origin
+    end.straight(t + rebate.breadth);
+    gp_Trsf before;
+    before.SetTranslation(gp_Vec(0, -t, 0));
+    const TopoDS_Shape section =
+        section_face(rebate.across ? end : profile, std::max(floor, beyond), std::min(floor, beyond));
+    return BRepPrimAPI_MakePrism(BRepBuilderAPI_Transform(section, before, true).Shape(),
+                                 gp_Vec(0, t + (rebate.across ? solid.width + t : rebate.breadth), 0))
+        .Shape();
+}
+
 /// Takes the stamp away from the solid, or puts it on.
 TopoDS_Shape stamped(const TopoDS_Shape& shape, const BentSolid& solid, const Profile& profile, const Stamp& stamp)
 {
@@ -333,6 +349,8 @@ TopoDS_Shape made(const BentSolid& solid)
         const gp_Pnt from = at.Translated(gp_Vec(across) * -reach + gp_Vec(0, solid.width / 2, 0));
         shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(from, across), radius, 2 * reach).Shape());
     }
+    for (const Rebate& rebate : solid.rebate)
+        shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, rebate)).Shape();
     for (const Cutout& cutout : solid.cutout)
         shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cutout)).Shape();
     for (const Sink& sink : solid.sink)

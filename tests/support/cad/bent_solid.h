@@ -85,6 +85,13 @@ struct BrokenEdges {
     int edges = 0;      ///< only so many of them; 0: all
 };
 
+/// A level step along a border, all along it.
+struct Rebate {
+    double depth = 0.2, breadth = 5; ///< mm
+    bool left = true;                ///< at that side
+    bool across = false;             ///< at the first leg's free end; else along y = 0, through bends
+};
+
 /// A section of straight legs and bends between them, the same all along y.
 struct BentSolid {
     std::string kind;            ///< bracket, Z, channel, hat, hem, knuckle
@@ -102,7 +109,8 @@ struct BentSolid {
     std::vector<BendCut> bend_cut = {};
     std::vector<Emboss> emboss = {};
     BrokenEdges broken = {};
-    std::uint64_t pose = 0; ///< turned and moved by this seed; 0: as said
+    std::vector<Rebate> rebate = {}; ///< after the edges are broken
+    std::uint64_t pose = 0;          ///< turned and moved by this seed; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
     double developed(double k) const;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -34,9 +35,12 @@ BentSolid random_broken_edges(std::uint64_t seed)
         solid.leg.push_back(random.between(30, 60));
     }
     solid.broken = {t * random.between(0.03, 0.3), random.coin(), random.coin()};
-    solid.kind =
-        fmt::format("broken edges {}: {} bends, {} of {:.3g} mm, {}", seed, bends,
-                    solid.broken.round ? "round" : "chamfer", solid.broken.size, solid.broken.left ? "left" : "right");
+    solid.broken.both = random.coin();
+    solid.kind = fmt::format("broken edges {}: {} bends, {} of {:.3g} mm, {}", seed, bends,
+                             solid.broken.round ? "round" : "chamfer", solid.broken.size,
+                             solid.broken.both   ? "both"
+                             : solid.broken.left ? "left"
+                                                 : "right");
     return solid;
 }
 
@@ -121,6 +125,31 @@ TEST(BrokenEdges, BesideSunkHolesDoNotMoveTheBorder)
             holes += round_area(hole.radius);
         // chords of up to 0.2 radians take 0.7 % of a hole
         EXPECT_NEAR(shapes::flat_area(X, session.part->mesh.triangle), developed_area(solid) - holes, 0.01 * holes);
+    }
+}
+
+TEST(BrokenEdges, OfSomeBordersAtBothSkinsDoNotMoveThemThroughBends)
+{
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        shapes::SeededRandom random(seed + 19000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(1, 5);
+        solid.leg = {t * random.between(8, 20), t * random.between(8, 20)};
+        solid.bend = {{t * random.between(0.7, 2), random.between(0.5, 1.6) * (random.coin() ? 1 : -1)}};
+        solid.width = t * random.between(10, 20); // some are told to be more like blocks
+        solid.pose = seed;
+        solid.broken = {t * random.between(0.1, 0.3), random.coin(), true, true, random.whole(2, 14)};
+        SCOPED_TRACE(fmt::format("{} of {} edges, {:.3g} of {:.3g} mm", solid.broken.round ? "round" : "chamfers",
+                                 solid.broken.edges, solid.broken.size, t));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        for (const std::string& doubt : session.part->doubts)
+            EXPECT_THAT(doubt, testing::HasSubstr("more like a block"));
+        expect_developed_size(session, solid, size_within(CadForm::step));
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle) /
+                        developed_area(solid),
+                    1, 1e-5);
     }
 }
 

@@ -1,0 +1,766 @@
+#include "engine/mesh/solid/onto_projection.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/face_neighbours.h"
+#include "engine/mesh/flat/inside_polygon.h"
+#include "engine/mesh/flat/polygon_union.h"
+#include "engine/mesh/mesh_polygon.h"
+#include "engine/mesh/solid/beside_solid.h"
+#include "engine/mesh/solid/plane_regions.h"
+#include "engine/mesh/solid/sheet_section.h"
+#include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
+
+namespace spia {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+/// A plane with axes.
+struct Chart {
+    Eigen::Vector3d origin, x, y, normal; ///< mm; unit vectors
+
+    Point flat(const Eigen::Vector3d& p) const { return {(p - origin).dot(x), (p - origin).dot(y)}; }
+    double height(const Eigen::Vector3d& p) const { return (p - origin).dot(normal); }
+    Eigen::Vector3d in_space(const Point& p) const { return origin + p.x() * x + p.y() * y; }
+};
+
+/// A corner of a flat's outline.
+struct Corner {
+    int vertex; ///< of the middle surface; -1: a new one
+    Point at;
+};
+using Ring = std::vector<Corner>;
+
+/// A place along a ring of the projection: in its edge from that point on.
+struct AlongRing {
+    size_t ring = 0;
+    double at = 0; ///< the whole part is the number of the point
+    double distance = std::numeric_limits<double>::infinity();
+};
+
+/// A triangle of a solid between two planes.
+struct SlabTriangle {
+    int face;
+    Eigen::Matrix2Xd flat;  ///< its corners, seen square to the planes
+    Eigen::Vector3d height; ///< mm, over the middle between them
+    Point outwards;         ///< of its unit normal, the part along the planes
+    double lean;            ///< and square to them, upwards
+};
+
+/// Closed rows around the triangles that are seen from above: how often they go around a place is
+/// how many layers of the solid are below it.
+std::vector<Eigen::Matrix2Xd> around_upper(const TriMesh& solid, const std::vector<SlabTriangle>& slab,
+                                           const Chart& chart, double flipped)
+{
+    constexpr double rounding = 1e-6;        // of a square wall's normal
+    std::map<std::pair<int, int>, int> uses; // of an edge, from its lower end on
+    for (const SlabTriangle& each : slab)
+        for (int k = 0; each.lean > rounding && k < 3; ++k) {
+            int a = solid.triangle(k, each.face), b = solid.triangle((k + 1) % 3, each.face);
+            if (flipped < 0)
+                std::swap(a, b);
+            uses[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        }
+    std::multimap<int, int> next;
+    for (const auto& [edge, times] : uses)
+        if (times != 0)
+            next.insert(times > 0 ? edge : std::pair(edge.second, edge.first));
+    std::vector<Eigen::Matrix2Xd> rows;
+    while (!next.empty()) {
+        std::vector<int> row;
+        for (auto at = next.begin(); at != next.end(); at = next.find(row.back())) {
+            row.push_back(at->second);
+            next.erase(at);
+        }
+        rows.emplace_back(2, row.size());
+        for (size_t i = 0; i < row.size(); ++i)
+            rows.back().col(Eigen::Index(i)) = chart.flat(solid.position.col(row[i]));
+    }
+    return rows;
+}
+
+/// Those of walls that cross the whole slab askew.
+std::vector<SlabTriangle> askew(const TriMesh& solid, const std::vector<SlabTriangle>& slab, double half)
+{
+    constexpr double square = 0.02, level = 0.985, smooth = 0.9; // sines of 1 and 80 degrees; cosine of 25
+    std::vector<SlabTriangle> leaning;
+    for (const SlabTriangle& each : slab)
+        if (std::abs(each.lean) > square && std::abs(each.lean) < level)
+            leaning.push_back(each);
+    const std::vector<EdgeUse> uses =
+        edge_uses(int(leaning.size()), [&](int i, int k) { return solid.triangle(k, leaning[size_t(i)].face); });
+    DisjointSets wall(leaning.size());
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        for (size_t i = begin + 1; i < end; ++i) {
+            const SlabTriangle &one = leaning[size_t(uses[begin].face)], &other = leaning[size_t(uses[i].face)];
+            if (one.outwards.dot(other.outwards) + one.lean * other.lean > smooth)
+                wall.join(uses[begin].face, uses[i].face);
+        }
+    });
+    std::map<int, std::pair<double, double>> reach; // mm, down and up
+    for (size_t i = 0; i < leaning.size(); ++i) {
+        auto& [low, high] = reach[wall.root(int(i))];
+        low = std::min(low, leaning[i].height.minCoeff());
+        high = std::max(high, leaning[i].height.maxCoeff());
+    }
+    constexpr double nearly = 0.98;
+    std::vector<SlabTriangle> result;
+    for (size_t i = 0; i < leaning.size(); ++i)
+        if (const auto& [low, high] = reach[wall.root(int(i))]; low < -nearly * half && high > nearly * half)
+            result.push_back(leaning[i]);
+    return result;
+}
+
+/// What is beyond where such a wall crosses the middle: the part of it that hangs over, and straight
+/// outwards from the middle what a chamfer has left of a corner there.
+/// @param into  gets these polygons
+void add_overhanging(const SlabTriangle& wall, double half, std::vector<Eigen::Matrix2Xd>& into)
+{
+    std::vector<Point> part, middle;
+    for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3;
+        const double over = wall.lean > 0 ? -1 : 1, a = over * wall.height[k], b = over * wall.height[next];
+        if (a >= 0)
+            part.emplace_back(wall.flat.col(k));
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+            part.emplace_back(wall.flat.col(k) + a / (a - b) * (wall.flat.col(next) - wall.flat.col(k)));
+            middle.push_back(part.back());
+        }
+    }
+    const Point beyond = half * std::abs(wall.lean) * wall.outwards / wall.outwards.squaredNorm();
+    if (middle.size() == 2) {
+        into.emplace_back(2, 4);
+        into.back() << middle[0], middle[1], middle[1] + beyond, middle[0] + beyond;
+    }
+    if (part.size() < 3)
+        return;
+    into.emplace_back(2, part.size());
+    for (size_t i = 0; i < part.size(); ++i)
+        into.back().col(Eigen::Index(i)) = part[i];
+}
+
+/// The outline of a solid within a slab, seen square to it.
+class Projection {
+public:
+    Projection(const GivenSolid& given, const Chart& chart)
+    {
+        const TriMesh& solid = given.mesh;
+        const std::vector<StatedSurface>& surface = given.surface;
+        const double half = given.thickness / 2;
+        constexpr double rounding = 1e-6, square = 0.01; // of the slab; sine of 0.6 degrees
+        std::vector<SlabTriangle> slab;
+        std::vector<Eigen::Matrix2Xd> overhanging;
+        for (int f = 0; f < solid.triangles(); ++f) {
+            SlabTriangle here{f, Eigen::Matrix2Xd(2, 3), {}, {}, 0};
+            for (int k = 0; k < 3; ++k) {
+                const Eigen::Vector3d p = solid.position.col(solid.triangle(k, f));
+                here.flat.col(k) = chart.flat(p);
+                here.height[k] = chart.height(p);
+            }
+            if (here.height.cwiseAbs().maxCoeff() > (1 + rounding) * half)
+                continue;
+            const Eigen::Matrix3d corner = solid.position(Eigen::all, solid.triangle.col(f));
+            const Eigen::Vector3d normal =
+                given.flipped * (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).normalized();
+            here.outwards = {normal.dot(chart.x), normal.dot(chart.y)};
+            here.lean = normal.dot(chart.normal);
+            slab.push_back(here);
+            if (surface.empty() || surface[size_t(f)].kind != StatedSurface::Kind::cylinder ||
+                surface[size_t(f)].direction.cross(chart.normal).norm() > square)
+                continue;
+            const Point axis = chart.flat(surface[size_t(f)].point);
+            for (int k = 0; k < 3; ++k)
+                arc_[key(here.flat.col(k), here.flat.col((k + 1) % 3))] = {axis, surface[size_t(f)].radius};
+        }
+        for (const SlabTriangle& each : askew(solid, slab, half))
+            add_overhanging(each, half, overhanging);
+        ring_ = polygon_union(around_upper(solid, slab, chart, given.flipped), overhanging);
+    }
+
+    const std::vector<Eigen::Matrix2Xd>& rings() const { return ring_; }
+
+    AlongRing nearest(const Point& place) const
+    {
+        AlongRing best;
+        for (size_t r = 0; r < ring_.size(); ++r)
+            for (Eigen::Index i = 0; i < ring_[r].cols(); ++i) {
+                const Point a = ring_[r].col(i), way = ring_[r].col((i + 1) % ring_[r].cols()) - a;
+                const double share = std::clamp((place - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+                if (const double distance = (a + share * way - place).norm(); distance < best.distance)
+                    best = {r, double(i) + share, distance};
+            }
+        return best;
+    }
+
+    /// The points between two places of one ring, along it, with those that divide arcs.
+    std::vector<Point> between(const AlongRing& from, const AlongRing& to) const
+    {
+        const Eigen::Matrix2Xd& ring = ring_[from.ring];
+        const double n = double(ring.cols());
+        std::vector<Point> result;
+        const double end = to.at > from.at ? to.at : to.at + n;
+        Point last = place(from);
+        for (double i = std::floor(from.at) + 1; i < end; ++i)
+            add(last = ring.col(Eigen::Index(i) % ring.cols()), ring, Eigen::Index(i), result);
+        return result;
+    }
+    /// All of a ring, likewise.
+    std::vector<Point> whole(size_t r) const
+    {
+        std::vector<Point> result;
+        for (Eigen::Index i = 0; i < ring_[r].cols(); ++i)
+            add(ring_[r].col(i), ring_[r], i, result);
+        return result;
+    }
+    Point place(const AlongRing& at) const
+    {
+        const Eigen::Matrix2Xd& ring = ring_[at.ring];
+        const auto i = Eigen::Index(at.at);
+        const Point a = ring.col(i % ring.cols()), b = ring.col((i + 1) % ring.cols());
+        return a + (at.at - double(i)) * (b - a);
+    }
+
+private:
+    using Key = std::array<double, 4>;
+    struct Arc {
+        Point centre;
+        double radius;
+    };
+    std::vector<Eigen::Matrix2Xd> ring_;
+    std::map<Key, Arc> arc_; ///< per edge of walls that are square to the plane
+
+    static Key key(const Point& a, const Point& b)
+    {
+        const auto less = [](const Point& p, const Point& q) {
+            return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y());
+        };
+        return less(a, b) ? Key{a.x(), a.y(), b.x(), b.y()} : Key{b.x(), b.y(), a.x(), a.y()};
+    }
+
+    /// A point after those that divide the arc to it from the one before.
+    void add(const Point& point, const Eigen::Matrix2Xd& ring, Eigen::Index i, std::vector<Point>& result) const
+    {
+        const Point before = ring.col((i - 1 + ring.cols()) % ring.cols());
+        if (const auto found = arc_.find(key(before, point)); found != arc_.end()) {
+            constexpr double finest = 3 * std::numbers::pi / 180; // as round_border() has them
+            const auto& [centre, radius] = found->second;
+            const Point a = before - centre, b = point - centre;
+            const double angle = std::atan2(cross(a, b), a.dot(b));
+            const int pieces = int(std::ceil(std::abs(angle) / finest - 1e-6));
+            for (int k = 1; k < pieces; ++k) {
+                const Eigen::Rotation2Dd turn(angle * k / pieces);
+                result.emplace_back(centre + radius * (turn * a).normalized());
+            }
+        }
+        result.push_back(point);
+    }
+};
+
+/// A middle surface, flat by flat.
+class Flats {
+public:
+    Flats(const SkinMesh& middle, const std::vector<BesideLoop>& loops) : middle_(middle), mesh_(middle.mesh)
+    {
+        const std::vector<EdgeUse> uses = edge_uses(mesh_.triangle);
+        neighbour_ = face_neighbours(mesh_.triangles(), uses);
+        const Eigen::Matrix3Xd normal = area_vectors(mesh_);
+        constexpr double rounding = 1e-6;
+        planes_ = plane_regions(mesh_, normal, neighbour_, rounding * bounding_diagonal(mesh_));
+        beside_.assign(size_t(mesh_.vertices()), 0);
+        for (const BesideLoop& loop : loops)
+            for (size_t i = 0; i < loop.vertex.size(); ++i) {
+                const int v = loop.vertex[i], w = loop.vertex[(i + 1) % loop.vertex.size()];
+                beside_[size_t(v)] = std::max(beside_[size_t(v)], std::abs(loop.beside[2 * i]));
+                edge_beside_[{v, w}] = std::abs(loop.beside[2 * i + 1]);
+            }
+    }
+
+    int count() const { return int(planes_.direction.cols()); }
+
+    /// Whether a plane is to be put onto the projection: flat sheet, none of the chords of a surface
+    /// that turns, and its border beside that of the solid.
+    bool is_off(int plane, const std::vector<StatedSurface>& under) const
+    {
+        constexpr double least = 1e-3; // of the area
+        if (beside(plane) == 0)
+            return false;
+        double size = 0, whole = 0;
+        bool turns = false;
+        const Eigen::Matrix3Xd vectors = area_vectors(mesh_);
+        for (int f = 0; f < mesh_.triangles(); ++f) {
+            whole += vectors.col(f).norm();
+            if (planes_.of[size_t(f)] != plane)
+                continue;
+            size += vectors.col(f).norm();
+            turns |=
+                !under.empty() && under[size_t(middle_.source_face[size_t(f)])].kind == StatedSurface::Kind::cylinder;
+        }
+        return !turns && size > least * whole;
+    }
+
+    /// mm, how far its border is beside that of the solid, in all.
+    double beside(int plane) const
+    {
+        double sum = 0;
+        for_each_side(plane, [&](int v, int w, int next) {
+            if (next < 0)
+                sum += beside_[size_t(v)] + beside_[size_t(w)] + at(v, w);
+        });
+        return sum;
+    }
+
+    Chart chart(int plane) const
+    {
+        const Eigen::Vector3d n = planes_.direction.col(plane), x = n.unitOrthogonal();
+        return {planes_.level[plane] * n, x, n.cross(x), n};
+    }
+
+    /// Its outline, corners of the middle surface alone; nothing where it touches itself.
+    std::optional<std::vector<Ring>> outline(int plane, const Chart& chart) const
+    {
+        std::map<int, int> next;
+        bool alone = true;
+        for_each_side(plane, [&](int v, int w, int) { alone &= next.insert({v, w}).second; });
+        std::vector<Ring> rings;
+        while (alone && !next.empty()) {
+            Ring ring;
+            int v = next.begin()->first;
+            for (auto at = next.begin(); at != next.end(); at = next.find(v)) {
+                ring.push_back({at->first, chart.flat(mesh_.position.col(at->first))});
+                v = at->second;
+                next.erase(at);
+            }
+            alone = v == ring.front().vertex && ring.size() >= 3;
+            rings.push_back(std::move(ring));
+        }
+        return alone ? std::optional(rings) : std::nullopt;
+    }
+
+    /// Whether an edge of the outline is of the border and one of its ends or its middle is beside
+    /// that of the solid.
+    bool moves(int v, int w) const
+    {
+        return edge_beside_.contains({v, w}) && (beside_[size_t(v)] > 0 || beside_[size_t(w)] > 0 || at(v, w) > 0);
+    }
+    bool beside_at(int vertex) const { return beside_[size_t(vertex)] > 0; }
+
+    /// The surface with other triangles on a plane.
+    std::optional<SkinMesh> with(int plane, const Chart& chart, const std::vector<Ring>& rings) const
+    {
+        std::vector<Eigen::Matrix2Xd> points;
+        std::vector<Corner> corners;
+        for (const Ring& ring : rings) {
+            points.emplace_back(2, ring.size());
+            for (size_t i = 0; i < ring.size(); ++i) {
+                points.back().col(Eigen::Index(i)) = ring[i].at;
+                corners.push_back(ring[i]);
+            }
+        }
+        const PlanarMesh flat = triangulate_polygon(points);
+        if (flat.triangle.cols() == 0)
+            return std::nullopt;
+        std::vector<Eigen::Vector3d> position;
+        std::vector<int> source_vertex = middle_.source_vertex;
+        for (const auto& p : mesh_.position.colwise())
+            position.emplace_back(p);
+        const std::vector<std::pair<Point, int>> named = places(plane, chart);
+        for (Corner& corner : corners) {
+            if (corner.vertex >= 0) {
+                position[size_t(corner.vertex)] = chart.in_space(corner.at);
+                continue;
+            }
+            corner.vertex = int(position.size());
+            position.push_back(chart.in_space(corner.at));
+            source_vertex.push_back(nearest(named, corner.at));
+        }
+        struct Named {
+            Triangle corner;
+            int source;
+        };
+        std::vector<Named> triangle;
+        for (int f = 0; f < mesh_.triangles(); ++f)
+            if (planes_.of[size_t(f)] != plane)
+                triangle.push_back({{mesh_.triangle(0, f), mesh_.triangle(1, f), mesh_.triangle(2, f)},
+                                    middle_.source_face[size_t(f)]});
+        const std::vector<std::pair<Point, int>> faces = middles(plane, chart);
+        for (const auto& t : flat.triangle.colwise()) {
+            const Point middle = (flat.position.col(t[0]) + flat.position.col(t[1]) + flat.position.col(t[2])) / 3;
+            triangle.push_back(
+                {{corners[size_t(t[0])].vertex, corners[size_t(t[1])].vertex, corners[size_t(t[2])].vertex},
+                 nearest(faces, middle)});
+        }
+        std::ranges::stable_sort(triangle, {}, &Named::source);
+        SkinMesh result = middle_;
+        std::vector<char> used(position.size(), 0);
+        for (const Named& t : triangle)
+            for (const int v : t.corner)
+                used[size_t(v)] = 1;
+        std::vector<int> order;
+        for (int v = 0; v < int(position.size()); ++v)
+            if (used[size_t(v)])
+                order.push_back(v);
+        std::ranges::stable_sort(order, {}, [&](int v) { return source_vertex[size_t(v)]; });
+        std::vector<int> number(position.size(), -1);
+        result.mesh.position.resize(3, Eigen::Index(order.size()));
+        result.source_vertex.clear();
+        for (size_t i = 0; i < order.size(); ++i) {
+            number[size_t(order[i])] = int(i);
+            result.mesh.position.col(Eigen::Index(i)) = position[size_t(order[i])];
+            result.source_vertex.push_back(source_vertex[size_t(order[i])]);
+        }
+        result.mesh.triangle.resize(3, Eigen::Index(triangle.size()));
+        result.source_face.clear();
+        for (size_t f = 0; f < triangle.size(); ++f) {
+            for (int k = 0; k < 3; ++k)
+                result.mesh.triangle(k, Eigen::Index(f)) = number[size_t(triangle[f].corner[size_t(k)])];
+            result.source_face.push_back(triangle[f].source);
+        }
+        return result;
+    }
+
+private:
+    const SkinMesh& middle_;
+    const TriMesh& mesh_;
+    Eigen::Matrix3Xi neighbour_;
+    PlaneRegions planes_;
+    std::vector<double> beside_;                        ///< mm, per vertex
+    std::map<std::pair<int, int>, double> edge_beside_; ///< mm, per edge of the border, along it
+
+    double at(int v, int w) const
+    {
+        const auto found = edge_beside_.find({v, w});
+        return found == edge_beside_.end() ? 0 : found->second;
+    }
+
+    /// Calls visit(from, to, face beyond) for the edges around a plane, with it on their left.
+    void for_each_side(int plane, const auto& visit) const
+    {
+        for (int f = 0; f < mesh_.triangles(); ++f)
+            for (int k = 0; planes_.of[size_t(f)] == plane && k < 3; ++k)
+                if (const int next = neighbour_(k, f); next < 0 || planes_.of[size_t(next)] != plane)
+                    visit(mesh_.triangle(k, f), mesh_.triangle((k + 1) % 3, f), next);
+    }
+
+    static int nearest(const std::vector<std::pair<Point, int>>& named, const Point& to)
+    {
+        return std::ranges::min_element(named, {}, [&](const auto& each) { return (each.first - to).squaredNorm(); })
+            ->second;
+    }
+    /// Of its vertices, with their numbers of the solid.
+    std::vector<std::pair<Point, int>> places(int plane, const Chart& chart) const
+    {
+        std::vector<std::pair<Point, int>> result;
+        for_each_side(plane, [&](int v, int, int) {
+            result.emplace_back(chart.flat(mesh_.position.col(v)), middle_.source_vertex[size_t(v)]);
+        });
+        return result;
+    }
+    std::vector<std::pair<Point, int>> middles(int plane, const Chart& chart) const
+    {
+        std::vector<std::pair<Point, int>> result;
+        for (int f = 0; f < mesh_.triangles(); ++f)
+            if (planes_.of[size_t(f)] == plane)
+                result.emplace_back(chart.flat(mesh_.position(Eigen::all, mesh_.triangle.col(f)).rowwise().mean()),
+                                    middle_.source_face[size_t(f)]);
+        return result;
+    }
+};
+
+Eigen::Matrix2Xd points_of(const Ring& ring)
+{
+    Eigen::Matrix2Xd result(2, ring.size());
+    for (size_t i = 0; i < ring.size(); ++i)
+        result.col(Eigen::Index(i)) = ring[i].at;
+    return result;
+}
+
+double signed_area(const Eigen::Matrix2Xd& ring)
+{
+    double sum = 0;
+    for (Eigen::Index i = 0; i < ring.cols(); ++i)
+        sum += cross(ring.col(i) - ring.col(0), ring.col((i + 1) % ring.cols()) - ring.col(0)) / 2;
+    return sum;
+}
+
+bool overlap(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
+{
+    const auto box = [](const Eigen::Matrix2Xd& m) {
+        return Eigen::AlignedBox2d(Point(m.rowwise().minCoeff()), Point(m.rowwise().maxCoeff()));
+    };
+    return box(a).intersects(box(b));
+}
+
+/// Puts a flat's outline onto that of the projection.
+class Mover {
+public:
+    Mover(const Flats& flats, const Projection& projection, double reach)
+        : flats_(flats), projection_(projection), reach_(reach)
+    {
+    }
+
+    /// Nothing if it is not known where to.
+    std::optional<std::vector<Ring>> moved(const std::vector<Ring>& outline)
+    {
+        std::vector<Ring> result;
+        for (const Ring& ring : outline) {
+            const auto on_it = moved(ring);
+            if (!on_it)
+                return std::nullopt;
+            if (on_it->size() >= 3)
+                result.push_back(*on_it);
+        }
+        add_holes(result);
+        std::ranges::stable_sort(result, std::greater(), [](const Ring& r) { return signed_area(points_of(r)); });
+        const bool one = !result.empty() && signed_area(points_of(result.front())) > 0 &&
+                         (result.size() == 1 || signed_area(points_of(result[1])) < 0);
+        return one ? std::optional(result) : std::nullopt;
+    }
+
+private:
+    const Flats& flats_;
+    const Projection& projection_;
+    double reach_; ///< mm, what is on the projection's outline
+
+    std::optional<Ring> moved(const Ring& ring) const
+    {
+        const size_t n = ring.size();
+        const auto moves = [&](size_t i) { return flats_.moves(ring[i % n].vertex, ring[(i + 1) % n].vertex); };
+        size_t start = 0;
+        while (start < n && (moves(start) || !moves(start + n - 1)))
+            ++start; // the first edge that stays after one that moves
+        if (start == n)
+            return moves(0) ? whole(ring) : ring;
+        Ring result;
+        for (size_t k = 0; k < n;) {
+            const size_t i = start + k;
+            if (!moves(i)) {
+                result.push_back(ring[i % n]);
+                ++k;
+                continue;
+            }
+            size_t end = i;
+            while (moves(end))
+                ++end;
+            const Corner &from = ring[i % n], &to = ring[end % n];
+            if (flats_.beside_at(from.vertex) || flats_.beside_at(to.vertex))
+                return std::nullopt; // the end of a bend
+            const AlongRing a = projection_.nearest(from.at), b = projection_.nearest(to.at);
+            if (a.distance > reach_ || b.distance > reach_ || a.ring != b.ring)
+                return std::nullopt;
+            result.push_back(from);
+            for (const Point& p : projection_.between(a, b))
+                if ((p - from.at).norm() > reach_ && (p - to.at).norm() > reach_)
+                    result.push_back({-1, p});
+            k += end - i;
+        }
+        return result;
+    }
+
+    /// Instead of a ring all of which is elsewhere; without corners: there is none.
+    Ring whole(const Ring& ring) const
+    {
+        const Eigen::Matrix2Xd points = points_of(ring);
+        const bool hole = signed_area(points) < 0;
+        const Point middle = points.rowwise().mean();
+        Ring result;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (size_t r = 0; r < projection_.rings().size(); ++r) {
+            const Eigen::Matrix2Xd& other = projection_.rings()[r];
+            const double distance = (other.rowwise().mean() - middle).norm();
+            if ((signed_area(other) < 0) != hole || !overlap(points, other) || distance >= nearest)
+                continue;
+            nearest = distance;
+            result.clear();
+            for (const Point& p : projection_.whole(r))
+                result.push_back({-1, p});
+        }
+        return result;
+    }
+
+    /// Those that lie in the outline and beside its holes.
+    void add_holes(std::vector<Ring>& outline) const
+    {
+        std::vector<Ring> added;
+        for (size_t r = 0; r < projection_.rings().size(); ++r) {
+            const Eigen::Matrix2Xd& hole = projection_.rings()[r];
+            if (signed_area(hole) >= 0)
+                continue;
+            const bool beside = std::ranges::all_of(outline, [&](const Ring& ring) {
+                const Eigen::Matrix2Xd points = points_of(ring);
+                const bool outside = signed_area(points) > 0;
+                for (const auto& p : hole.colwise())
+                    if (inside_polygon(points, p) != outside || distance_from(points, p) <= reach_)
+                        return false;
+                for (const auto& p : points.colwise())
+                    if (!outside && inside_polygon(hole, p))
+                        return false;
+                return true;
+            });
+            if (!beside)
+                continue;
+            added.emplace_back();
+            for (const Point& p : projection_.whole(r))
+                added.back().push_back({-1, p});
+        }
+        std::ranges::move(added, std::back_inserter(outline));
+    }
+
+    static double distance_from(const Eigen::Matrix2Xd& ring, const Point& place)
+    {
+        double least = std::numeric_limits<double>::infinity();
+        for (Eigen::Index i = 0; i < ring.cols(); ++i) {
+            const Point a = ring.col(i), way = ring.col((i + 1) % ring.cols()) - a;
+            const double share = std::clamp((place - a).dot(way) / std::max(way.squaredNorm(), 1e-300), 0.0, 1.0);
+            least = std::min(least, (a + share * way - place).norm());
+        }
+        return least;
+    }
+};
+
+/// A middle surface and how far its border is beside that of the solid.
+struct Held {
+    std::vector<BesideLoop> loops;
+    double sum; ///< mm
+};
+
+Held held(const TriMesh& middle, const GivenSolid& solid, double tolerance)
+{
+    Held result{beside_loops(middle, solid.mesh, solid.thickness, tolerance, solid.deflection), 0};
+    for (const BesideLoop& loop : result.loops)
+        for (const double each : loop.beside)
+            result.sum += std::abs(each);
+    return result;
+}
+
+/// Per vertex of a middle surface the axis of the cylinder that it lies on, unit, away from the
+/// surface; zero: on none, or on more than one.
+Eigen::Matrix3Xd rulings(const SkinMesh& middle, const std::vector<StatedSurface>& under)
+{
+    const TriMesh& mesh = middle.mesh;
+    Eigen::Matrix3Xd axis = Eigen::Matrix3Xd::Zero(3, mesh.vertices()), away = axis;
+    std::vector<char> several(size_t(mesh.vertices()), 0);
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        const Eigen::Vector3d centre = mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
+        const StatedSurface& surface = under[size_t(middle.source_face[size_t(f)])];
+        constexpr double parallel = 1 - 1e-6; // 0.1 degrees
+        for (const int v : mesh.triangle.col(f)) {
+            away.col(v) += mesh.position.col(v) - centre;
+            if (surface.kind != StatedSurface::Kind::cylinder)
+                continue;
+            several[size_t(v)] |= !axis.col(v).isZero() && std::abs(axis.col(v).dot(surface.direction)) < parallel;
+            axis.col(v) = surface.direction;
+        }
+    }
+    for (int v = 0; v < mesh.vertices(); ++v)
+        axis.col(v) *= several[size_t(v)] ? 0 : axis.col(v).dot(away.col(v)) < 0 ? -1 : 1;
+    return axis;
+}
+
+/// Where triangles have turned over, their vertices go back to where they were.
+void put_back_folds(TriMesh& mesh, const Eigen::Matrix3Xd& before)
+{
+    const Eigen::Matrix3Xd facing = area_vectors({before, mesh.triangle});
+    for (bool any = true; any;) {
+        any = false;
+        const Eigen::Matrix3Xd now = area_vectors(mesh);
+        for (int f = 0; f < mesh.triangles(); ++f)
+            if (now.col(f).dot(facing.col(f)) <= 0)
+                for (const int v : mesh.triangle.col(f)) {
+                    any |= mesh.position.col(v) != before.col(v);
+                    mesh.position.col(v) = before.col(v);
+                }
+    }
+}
+
+/// Moves vertices of bends along their rulings to where the solid ends, where the border crosses
+/// these.
+/// @returns whether any has moved
+bool along_rulings(TriMesh& mesh, const Eigen::Matrix3Xd& ruling, const std::vector<BesideLoop>& loops,
+                   const GivenSolid& solid, double tolerance)
+{
+    const SheetSection section(solid.mesh, solid.thickness);
+    const Eigen::Matrix3Xd normal = vertex_normals(mesh);
+    const Eigen::Matrix3Xd before = mesh.position;
+    for (const BesideLoop& loop : loops)
+        for (size_t i = 0; i < loop.vertex.size(); ++i) {
+            const size_t n = loop.vertex.size();
+            const int v = loop.vertex[i];
+            if (loop.beside[2 * i] == 0 || ruling.col(v).isZero())
+                continue;
+            const auto along = [&](int from, int to) {
+                return std::abs((before.col(to) - before.col(from)).normalized().dot(ruling.col(v)));
+            };
+            // cosine of 30 degrees; thicknesses: chamfers and roundings take less
+            constexpr double crosses = 0.87, most = 1;
+            constexpr int digits = 40;
+            if (std::max(along(loop.vertex[(i + n - 1) % n], v), along(v, loop.vertex[(i + 1) % n])) > crosses)
+                continue;
+            const double end = section.to_the_end({before.col(v), normal.col(v), ruling.col(v)}, tolerance,
+                                                  most * solid.thickness, digits);
+            const Eigen::Vector3d to = before.col(v) + end * ruling.col(v);
+            if (std::abs(end) < most * solid.thickness &&
+                section.square_wall({to, normal.col(v), ruling.col(v)}, tolerance))
+                mesh.position.col(v) = to;
+        }
+    put_back_folds(mesh, before);
+    return mesh.position != before;
+}
+
+/// Puts flats onto the projection one by one.
+void flats_onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, Held& now,
+                           const GivenSolid& solid, double tolerance)
+{
+    for (int plane = 0; now.sum > 0;) {
+        const Flats flats(middle, now.loops);
+        while (plane < flats.count() && !flats.is_off(plane, under))
+            ++plane;
+        if (plane == flats.count())
+            return;
+        const Chart chart = flats.chart(plane);
+        const auto outline = flats.outline(plane, chart);
+        ++plane;
+        if (!outline)
+            continue;
+        const Projection projection(solid, chart);
+        const auto moved = Mover(flats, projection, tolerance).moved(*outline);
+        std::optional<SkinMesh> better = moved ? flats.with(plane - 1, chart, *moved) : std::nullopt;
+        if (!better)
+            continue;
+        if (Held then = held(better->mesh, solid, tolerance); then.sum + tolerance < now.sum) {
+            middle = std::move(*better);
+            now = std::move(then);
+            plane = 0; // they are counted by their size
+        }
+    }
+}
+
+} // namespace
+
+void onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, const GivenSolid& solid,
+                     double tolerance)
+{
+    Held now = held(middle.mesh, solid, tolerance);
+    if (now.sum > 0 && !under.empty()) {
+        TriMesh moved = middle.mesh;
+        if (along_rulings(moved, rulings(middle, under), now.loops, solid, tolerance))
+            if (Held then = held(moved, solid, tolerance); then.sum < now.sum) {
+                middle.mesh = std::move(moved);
+                now = std::move(then);
+            }
+    }
+    flats_onto_projection(middle, under, now, solid, tolerance);
+}
+
+} // namespace spia
