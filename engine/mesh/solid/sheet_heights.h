@@ -88,9 +88,11 @@ public:
     /// @param flipped  -1 if the triangles are seen from inside
     template <class Own, class Other>
     HeightAboveSkin(const TriMesh& mesh, const Own& own_skin, const Other& other_skin, double thickness, double flipped)
-        : other_(mesh, other_skin, 2 * thickness), own_(mesh, own_skin, broadest * thickness), thickness_(thickness),
-          flipped_(flipped)
+        : other_(mesh, other_skin, 2 * thickness), thickness_(thickness), flipped_(flipped)
     {
+        for (int f = 0; f < mesh.triangles() && !own_; ++f)
+            if (own_skin(f))
+                own_.emplace(mesh, own_skin, broadest * thickness);
     }
     SheetHeights& over_other() { return other_; }
 
@@ -107,10 +109,15 @@ public:
 
 private:
     static constexpr double broadest = 10; // thicknesses: steps along a border are not broader
-    SheetHeights other_, own_;
+    SheetHeights other_;
+    std::optional<SheetHeights> own_; ///< none: the skin has no triangle but those of marks
     double thickness_, flipped_;
 
-    double above_own(int v) const { return flipped_ * own_.out_of_nearest(v).value_or(thickness_); }
+    double above_own(int v) const
+    {
+        const std::optional<double> above = own_ ? own_->out_of_nearest(v) : std::nullopt;
+        return flipped_ * above.value_or(thickness_);
+    }
 };
 
 } // namespace spia

@@ -70,7 +70,9 @@ double SheetSection::facets(const BorderPlace& at, double within) const
             const double turn = std::atan2(n.cross(normal(other)).norm(), n.dot(normal(other)));
             constexpr double smooth = std::numbers::pi / 6; // a circle of twelve chords
             if (turn < smooth)
-                result = std::max(result, n.norm() / edge.norm() / 2 * std::tan(turn / 4));
+                // the shorter chord: flat sheet beside an arc is none
+                result = std::max(result, std::min(n.norm(), normal(other).norm()) / edge.norm() / 2 *
+                                              std::tan(turn / 4));
         }
     return result;
 }

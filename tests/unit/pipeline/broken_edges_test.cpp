@@ -128,7 +128,7 @@ TEST(BrokenEdges, BesideSunkHolesDoNotMoveTheBorder)
     }
 }
 
-TEST(BrokenEdges, OfSomeBordersAtBothSkinsDoNotMoveThemThroughBends)
+TEST(BrokenEdges, OfSomeBordersDoNotMoveThemThroughBends)
 {
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -139,7 +139,9 @@ TEST(BrokenEdges, OfSomeBordersAtBothSkinsDoNotMoveThemThroughBends)
         solid.bend = {{t * random.between(0.7, 2), random.between(0.5, 1.6) * (random.coin() ? 1 : -1)}};
         solid.width = t * random.between(10, 20); // some are told to be more like blocks
         solid.pose = seed;
-        solid.broken = {t * random.between(0.1, 0.3), random.coin(), true, true, random.whole(2, 14)};
+        // what a chamfer leaves of the wall crosses the middle of the sheet
+        const double share = random.between(0.1, 0.45);
+        solid.broken = {t * share, share < 0.3 && random.coin(), random.coin(), share < 0.3, random.whole(2, 14)};
         SCOPED_TRACE(fmt::format("{} of {} edges, {:.3g} of {:.3g} mm", solid.broken.round ? "round" : "chamfers",
                                  solid.broken.edges, solid.broken.size, t));
         shapes::write_bent_solid(folder / "part.step", solid);
