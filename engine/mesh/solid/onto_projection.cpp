@@ -2,23 +2,19 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/flat/inside_polygon.h"
-#include "engine/mesh/flat/polygon_union.h"
 #include "engine/mesh/mesh_polygon.h"
+#include "engine/mesh/solid/along_rulings.h"
 #include "engine/mesh/solid/beside_solid.h"
 #include "engine/mesh/solid/plane_regions.h"
-#include "engine/mesh/solid/sheet_section.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/vectors.h"
 
@@ -27,246 +23,12 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// A plane with axes.
-struct Chart {
-    Eigen::Vector3d origin, x, y, normal; ///< mm; unit vectors
-
-    Point flat(const Eigen::Vector3d& p) const { return {(p - origin).dot(x), (p - origin).dot(y)}; }
-    double height(const Eigen::Vector3d& p) const { return (p - origin).dot(normal); }
-    Eigen::Vector3d in_space(const Point& p) const { return origin + p.x() * x + p.y() * y; }
-};
-
 /// A corner of a flat's outline.
 struct Corner {
     int vertex; ///< of the middle surface; -1: a new one
     Point at;
 };
 using Ring = std::vector<Corner>;
-
-/// A place along a ring of the projection: in its edge from that point on.
-struct AlongRing {
-    size_t ring = 0;
-    double at = 0; ///< the whole part is the number of the point
-    double distance = std::numeric_limits<double>::infinity();
-};
-
-/// A triangle of a solid between two planes.
-struct SlabTriangle {
-    int face;
-    Eigen::Matrix2Xd flat;  ///< its corners, seen square to the planes
-    Eigen::Vector3d height; ///< mm, over the middle between them
-    Point outwards;         ///< of its unit normal, the part along the planes
-    double lean;            ///< and square to them, upwards
-};
-
-/// Closed rows around the triangles that are seen from above: how often they go around a place is
-/// how many layers of the solid are below it.
-std::vector<Eigen::Matrix2Xd> around_upper(const TriMesh& solid, const std::vector<SlabTriangle>& slab,
-                                           const Chart& chart, double flipped)
-{
-    constexpr double rounding = 1e-6;        // of a square wall's normal
-    std::map<std::pair<int, int>, int> uses; // of an edge, from its lower end on
-    for (const SlabTriangle& each : slab)
-        for (int k = 0; each.lean > rounding && k < 3; ++k) {
-            int a = solid.triangle(k, each.face), b = solid.triangle((k + 1) % 3, each.face);
-            if (flipped < 0)
-                std::swap(a, b);
-            uses[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-        }
-    std::multimap<int, int> next;
-    for (const auto& [edge, times] : uses)
-        if (times != 0)
-            next.insert(times > 0 ? edge : std::pair(edge.second, edge.first));
-    std::vector<Eigen::Matrix2Xd> rows;
-    while (!next.empty()) {
-        std::vector<int> row;
-        for (auto at = next.begin(); at != next.end(); at = next.find(row.back())) {
-            row.push_back(at->second);
-            next.erase(at);
-        }
-        rows.emplace_back(2, row.size());
-        for (size_t i = 0; i < row.size(); ++i)
-            rows.back().col(Eigen::Index(i)) = chart.flat(solid.position.col(row[i]));
-    }
-    return rows;
-}
-
-/// Those of walls that cross the whole slab askew.
-std::vector<SlabTriangle> askew(const TriMesh& solid, const std::vector<SlabTriangle>& slab, double half)
-{
-    constexpr double square = 0.02, level = 0.985, smooth = 0.9; // sines of 1 and 80 degrees; cosine of 25
-    std::vector<SlabTriangle> leaning;
-    for (const SlabTriangle& each : slab)
-        if (std::abs(each.lean) > square && std::abs(each.lean) < level)
-            leaning.push_back(each);
-    const std::vector<EdgeUse> uses =
-        edge_uses(int(leaning.size()), [&](int i, int k) { return solid.triangle(k, leaning[size_t(i)].face); });
-    DisjointSets wall(leaning.size());
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        for (size_t i = begin + 1; i < end; ++i) {
-            const SlabTriangle &one = leaning[size_t(uses[begin].face)], &other = leaning[size_t(uses[i].face)];
-            if (one.outwards.dot(other.outwards) + one.lean * other.lean > smooth)
-                wall.join(uses[begin].face, uses[i].face);
-        }
-    });
-    std::map<int, std::pair<double, double>> reach; // mm, down and up
-    for (size_t i = 0; i < leaning.size(); ++i) {
-        auto& [low, high] = reach[wall.root(int(i))];
-        low = std::min(low, leaning[i].height.minCoeff());
-        high = std::max(high, leaning[i].height.maxCoeff());
-    }
-    constexpr double nearly = 0.98;
-    std::vector<SlabTriangle> result;
-    for (size_t i = 0; i < leaning.size(); ++i)
-        if (const auto& [low, high] = reach[wall.root(int(i))]; low < -nearly * half && high > nearly * half)
-            result.push_back(leaning[i]);
-    return result;
-}
-
-/// What is beyond where such a wall crosses the middle: the part of it that hangs over, and straight
-/// outwards from the middle what a chamfer has left of a corner there.
-/// @param into  gets these polygons
-void add_overhanging(const SlabTriangle& wall, double half, std::vector<Eigen::Matrix2Xd>& into)
-{
-    std::vector<Point> part, middle;
-    for (int k = 0; k < 3; ++k) {
-        const int next = (k + 1) % 3;
-        const double over = wall.lean > 0 ? -1 : 1, a = over * wall.height[k], b = over * wall.height[next];
-        if (a >= 0)
-            part.emplace_back(wall.flat.col(k));
-        if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
-            part.emplace_back(wall.flat.col(k) + a / (a - b) * (wall.flat.col(next) - wall.flat.col(k)));
-            middle.push_back(part.back());
-        }
-    }
-    const Point beyond = half * std::abs(wall.lean) * wall.outwards / wall.outwards.squaredNorm();
-    if (middle.size() == 2) {
-        into.emplace_back(2, 4);
-        into.back() << middle[0], middle[1], middle[1] + beyond, middle[0] + beyond;
-    }
-    if (part.size() < 3)
-        return;
-    into.emplace_back(2, part.size());
-    for (size_t i = 0; i < part.size(); ++i)
-        into.back().col(Eigen::Index(i)) = part[i];
-}
-
-/// The outline of a solid within a slab, seen square to it.
-class Projection {
-public:
-    Projection(const GivenSolid& given, const Chart& chart)
-    {
-        const TriMesh& solid = given.mesh;
-        const std::vector<StatedSurface>& surface = given.surface;
-        const double half = given.thickness / 2;
-        constexpr double rounding = 1e-6, square = 0.01; // of the slab; sine of 0.6 degrees
-        std::vector<SlabTriangle> slab;
-        std::vector<Eigen::Matrix2Xd> overhanging;
-        for (int f = 0; f < solid.triangles(); ++f) {
-            SlabTriangle here{f, Eigen::Matrix2Xd(2, 3), {}, {}, 0};
-            for (int k = 0; k < 3; ++k) {
-                const Eigen::Vector3d p = solid.position.col(solid.triangle(k, f));
-                here.flat.col(k) = chart.flat(p);
-                here.height[k] = chart.height(p);
-            }
-            if (here.height.cwiseAbs().maxCoeff() > (1 + rounding) * half)
-                continue;
-            const Eigen::Matrix3d corner = solid.position(Eigen::all, solid.triangle.col(f));
-            const Eigen::Vector3d normal =
-                given.flipped * (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).normalized();
-            here.outwards = {normal.dot(chart.x), normal.dot(chart.y)};
-            here.lean = normal.dot(chart.normal);
-            slab.push_back(here);
-            if (surface.empty() || surface[size_t(f)].kind != StatedSurface::Kind::cylinder ||
-                surface[size_t(f)].direction.cross(chart.normal).norm() > square)
-                continue;
-            const Point axis = chart.flat(surface[size_t(f)].point);
-            for (int k = 0; k < 3; ++k)
-                arc_[key(here.flat.col(k), here.flat.col((k + 1) % 3))] = {axis, surface[size_t(f)].radius};
-        }
-        for (const SlabTriangle& each : askew(solid, slab, half))
-            add_overhanging(each, half, overhanging);
-        ring_ = polygon_union(around_upper(solid, slab, chart, given.flipped), overhanging);
-    }
-
-    const std::vector<Eigen::Matrix2Xd>& rings() const { return ring_; }
-
-    AlongRing nearest(const Point& place) const
-    {
-        AlongRing best;
-        for (size_t r = 0; r < ring_.size(); ++r)
-            for (Eigen::Index i = 0; i < ring_[r].cols(); ++i) {
-                const Point a = ring_[r].col(i), way = ring_[r].col((i + 1) % ring_[r].cols()) - a;
-                const double share = std::clamp((place - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-                if (const double distance = (a + share * way - place).norm(); distance < best.distance)
-                    best = {r, double(i) + share, distance};
-            }
-        return best;
-    }
-
-    /// The points between two places of one ring, along it, with those that divide arcs.
-    std::vector<Point> between(const AlongRing& from, const AlongRing& to) const
-    {
-        const Eigen::Matrix2Xd& ring = ring_[from.ring];
-        const double n = double(ring.cols());
-        std::vector<Point> result;
-        const double end = to.at > from.at ? to.at : to.at + n;
-        Point last = place(from);
-        for (double i = std::floor(from.at) + 1; i < end; ++i)
-            add(last = ring.col(Eigen::Index(i) % ring.cols()), ring, Eigen::Index(i), result);
-        return result;
-    }
-    /// All of a ring, likewise.
-    std::vector<Point> whole(size_t r) const
-    {
-        std::vector<Point> result;
-        for (Eigen::Index i = 0; i < ring_[r].cols(); ++i)
-            add(ring_[r].col(i), ring_[r], i, result);
-        return result;
-    }
-    Point place(const AlongRing& at) const
-    {
-        const Eigen::Matrix2Xd& ring = ring_[at.ring];
-        const auto i = Eigen::Index(at.at);
-        const Point a = ring.col(i % ring.cols()), b = ring.col((i + 1) % ring.cols());
-        return a + (at.at - double(i)) * (b - a);
-    }
-
-private:
-    using Key = std::array<double, 4>;
-    struct Arc {
-        Point centre;
-        double radius;
-    };
-    std::vector<Eigen::Matrix2Xd> ring_;
-    std::map<Key, Arc> arc_; ///< per edge of walls that are square to the plane
-
-    static Key key(const Point& a, const Point& b)
-    {
-        const auto less = [](const Point& p, const Point& q) {
-            return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y());
-        };
-        return less(a, b) ? Key{a.x(), a.y(), b.x(), b.y()} : Key{b.x(), b.y(), a.x(), a.y()};
-    }
-
-    /// A point after those that divide the arc to it from the one before.
-    void add(const Point& point, const Eigen::Matrix2Xd& ring, Eigen::Index i, std::vector<Point>& result) const
-    {
-        const Point before = ring.col((i - 1 + ring.cols()) % ring.cols());
-        if (const auto found = arc_.find(key(before, point)); found != arc_.end()) {
-            constexpr double finest = 3 * std::numbers::pi / 180; // as round_border() has them
-            const auto& [centre, radius] = found->second;
-            const Point a = before - centre, b = point - centre;
-            const double angle = std::atan2(cross(a, b), a.dot(b));
-            const int pieces = int(std::ceil(std::abs(angle) / finest - 1e-6));
-            for (int k = 1; k < pieces; ++k) {
-                const Eigen::Rotation2Dd turn(angle * k / pieces);
-                result.emplace_back(centre + radius * (turn * a).normalized());
-            }
-        }
-        result.push_back(point);
-    }
-};
 
 /// A middle surface, flat by flat.
 class Flats {
@@ -321,14 +83,14 @@ public:
         return sum;
     }
 
-    Chart chart(int plane) const
+    FlatChart chart(int plane) const
     {
         const Eigen::Vector3d n = planes_.direction.col(plane), x = n.unitOrthogonal();
         return {planes_.level[plane] * n, x, n.cross(x), n};
     }
 
     /// Its outline, corners of the middle surface alone; nothing where it touches itself.
-    std::optional<std::vector<Ring>> outline(int plane, const Chart& chart) const
+    std::optional<std::vector<Ring>> outline(int plane, const FlatChart& chart) const
     {
         std::map<int, int> next;
         bool alone = true;
@@ -357,7 +119,7 @@ public:
     bool beside_at(int vertex) const { return beside_[size_t(vertex)] > 0; }
 
     /// The surface with other triangles on a plane.
-    std::optional<SkinMesh> with(int plane, const Chart& chart, const std::vector<Ring>& rings) const
+    std::optional<SkinMesh> with(int plane, const FlatChart& chart, const std::vector<Ring>& rings) const
     {
         std::vector<Eigen::Matrix2Xd> points;
         std::vector<Corner> corners;
@@ -459,7 +221,7 @@ private:
             ->second;
     }
     /// Of its vertices, with their numbers of the solid.
-    std::vector<std::pair<Point, int>> places(int plane, const Chart& chart) const
+    std::vector<std::pair<Point, int>> places(int plane, const FlatChart& chart) const
     {
         std::vector<std::pair<Point, int>> result;
         for_each_side(plane, [&](int v, int, int) {
@@ -467,7 +229,7 @@ private:
         });
         return result;
     }
-    std::vector<std::pair<Point, int>> middles(int plane, const Chart& chart) const
+    std::vector<std::pair<Point, int>> middles(int plane, const FlatChart& chart) const
     {
         std::vector<std::pair<Point, int>> result;
         for (int f = 0; f < mesh_.triangles(); ++f)
@@ -505,7 +267,7 @@ bool overlap(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
 /// Puts a flat's outline onto that of the projection.
 class Mover {
 public:
-    Mover(const Flats& flats, const Projection& projection, double reach)
+    Mover(const Flats& flats, const SlabProjection& projection, double reach)
         : flats_(flats), projection_(projection), reach_(reach)
     {
     }
@@ -530,7 +292,7 @@ public:
 
 private:
     const Flats& flats_;
-    const Projection& projection_;
+    const SlabProjection& projection_;
     double reach_; ///< mm, what is on the projection's outline
 
     std::optional<Ring> moved(const Ring& ring) const
@@ -644,80 +406,6 @@ Held held(const TriMesh& middle, const GivenSolid& solid, double tolerance)
     return result;
 }
 
-/// Per vertex of a middle surface the axis of the cylinder that it lies on, unit, away from the
-/// surface; zero: on none, or on more than one.
-Eigen::Matrix3Xd rulings(const SkinMesh& middle, const std::vector<StatedSurface>& under)
-{
-    const TriMesh& mesh = middle.mesh;
-    Eigen::Matrix3Xd axis = Eigen::Matrix3Xd::Zero(3, mesh.vertices()), away = axis;
-    std::vector<char> several(size_t(mesh.vertices()), 0);
-    for (int f = 0; f < mesh.triangles(); ++f) {
-        const Eigen::Vector3d centre = mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
-        const StatedSurface& surface = under[size_t(middle.source_face[size_t(f)])];
-        constexpr double parallel = 1 - 1e-6; // 0.1 degrees
-        for (const int v : mesh.triangle.col(f)) {
-            away.col(v) += mesh.position.col(v) - centre;
-            if (surface.kind != StatedSurface::Kind::cylinder)
-                continue;
-            several[size_t(v)] |= !axis.col(v).isZero() && std::abs(axis.col(v).dot(surface.direction)) < parallel;
-            axis.col(v) = surface.direction;
-        }
-    }
-    for (int v = 0; v < mesh.vertices(); ++v)
-        axis.col(v) *= several[size_t(v)] ? 0 : axis.col(v).dot(away.col(v)) < 0 ? -1 : 1;
-    return axis;
-}
-
-/// Where triangles have turned over, their vertices go back to where they were.
-void put_back_folds(TriMesh& mesh, const Eigen::Matrix3Xd& before)
-{
-    const Eigen::Matrix3Xd facing = area_vectors({before, mesh.triangle});
-    for (bool any = true; any;) {
-        any = false;
-        const Eigen::Matrix3Xd now = area_vectors(mesh);
-        for (int f = 0; f < mesh.triangles(); ++f)
-            if (now.col(f).dot(facing.col(f)) <= 0)
-                for (const int v : mesh.triangle.col(f)) {
-                    any |= mesh.position.col(v) != before.col(v);
-                    mesh.position.col(v) = before.col(v);
-                }
-    }
-}
-
-/// Moves vertices of bends along their rulings to where the solid ends, where the border crosses
-/// these.
-/// @returns whether any has moved
-bool along_rulings(TriMesh& mesh, const Eigen::Matrix3Xd& ruling, const std::vector<BesideLoop>& loops,
-                   const GivenSolid& solid, double tolerance)
-{
-    const SheetSection section(solid.mesh, solid.thickness);
-    const Eigen::Matrix3Xd normal = vertex_normals(mesh);
-    const Eigen::Matrix3Xd before = mesh.position;
-    for (const BesideLoop& loop : loops)
-        for (size_t i = 0; i < loop.vertex.size(); ++i) {
-            const size_t n = loop.vertex.size();
-            const int v = loop.vertex[i];
-            if (loop.beside[2 * i] == 0 || ruling.col(v).isZero())
-                continue;
-            const auto along = [&](int from, int to) {
-                return std::abs((before.col(to) - before.col(from)).normalized().dot(ruling.col(v)));
-            };
-            // cosine of 30 degrees; thicknesses: chamfers and roundings take less
-            constexpr double crosses = 0.87, most = 1;
-            constexpr int digits = 40;
-            if (std::max(along(loop.vertex[(i + n - 1) % n], v), along(v, loop.vertex[(i + 1) % n])) > crosses)
-                continue;
-            const double end = section.to_the_end({before.col(v), normal.col(v), ruling.col(v)}, tolerance,
-                                                  most * solid.thickness, digits);
-            const Eigen::Vector3d to = before.col(v) + end * ruling.col(v);
-            if (std::abs(end) < most * solid.thickness &&
-                section.square_wall({to, normal.col(v), ruling.col(v)}, tolerance))
-                mesh.position.col(v) = to;
-        }
-    put_back_folds(mesh, before);
-    return mesh.position != before;
-}
-
 /// Puts flats onto the projection one by one.
 void flats_onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, Held& now,
                            const GivenSolid& solid, double tolerance)
@@ -728,12 +416,12 @@ void flats_onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& u
             ++plane;
         if (plane == flats.count())
             return;
-        const Chart chart = flats.chart(plane);
+        const FlatChart chart = flats.chart(plane);
         const auto outline = flats.outline(plane, chart);
         ++plane;
         if (!outline)
             continue;
-        const Projection projection(solid, chart);
+        const SlabProjection projection(solid, chart);
         const auto moved = Mover(flats, projection, tolerance).moved(*outline);
         std::optional<SkinMesh> better = moved ? flats.with(plane - 1, chart, *moved) : std::nullopt;
         if (!better)
@@ -753,12 +441,11 @@ void onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, 
 {
     Held now = held(middle.mesh, solid, tolerance);
     if (now.sum > 0 && !under.empty()) {
-        TriMesh moved = middle.mesh;
-        if (along_rulings(moved, rulings(middle, under), now.loops, solid, tolerance))
-            if (Held then = held(moved, solid, tolerance); then.sum < now.sum) {
-                middle.mesh = std::move(moved);
-                now = std::move(then);
-            }
+        TriMesh moved = along_rulings(middle, now.loops, under, solid, tolerance);
+        if (Held then = held(moved, solid, tolerance); then.sum < now.sum) {
+            middle.mesh = std::move(moved);
+            now = std::move(then);
+        }
     }
     flats_onto_projection(middle, under, now, solid, tolerance);
 }

@@ -2,18 +2,10 @@
 #include <vector>
 
 #include "engine/mesh/solid/skin.h"
+#include "engine/mesh/solid/slab_projection.h"
 #include "engine/mesh/solid/stated_surface.h"
 
 namespace spia {
-
-/// A solid of sheet as it is given, with its marks.
-struct GivenSolid {
-    const TriMesh& mesh;
-    const std::vector<StatedSurface>& surface; ///< per triangle what CAD states; empty: nothing
-    double thickness;                          ///< mm
-    double flipped;                            ///< -1 if its triangles are seen from inside
-    double deflection;                         ///< mm, how far they may be from what CAD states
-};
 
 /// Where the border of a middle surface is beside that of the solid (beside_loops()), it is put
 /// onto the outline of the solid's projection, square to the sheet: that is where the sheet is cut,

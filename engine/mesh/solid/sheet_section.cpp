@@ -71,8 +71,8 @@ double SheetSection::facets(const BorderPlace& at, double within) const
             constexpr double smooth = std::numbers::pi / 6; // a circle of twelve chords
             if (turn < smooth)
                 // the shorter chord: flat sheet beside an arc is none
-                result = std::max(result, std::min(n.norm(), normal(other).norm()) / edge.norm() / 2 *
-                                              std::tan(turn / 4));
+                result =
+                    std::max(result, std::min(n.norm(), normal(other).norm()) / edge.norm() / 2 * std::tan(turn / 4));
         }
     return result;
 }
