@@ -93,49 +93,52 @@ class Border {
 public:
     Border(SkinMesh& middle, TriMesh& outer, const TriMesh& solid, const ThinSolid& sheet,
            const std::vector<StatedSurface>& surface, const std::vector<int>& done)
-        : middle_(middle), outer_(outer), half_(sheet.thickness / 2), surface_(surface),
+        : middle_(middle), outer_(outer), solid_(solid), half_(sheet.thickness / 2), surface_(surface),
           neighbour_(face_neighbours(outer.triangles(), edge_uses(outer.triangle)))
     {
-        find_border(solid, sheet, done);
+        find_border(sheet, done);
         facing_ = area_vectors(outer);
     }
 
-    /// Vertices where one cylinder cuts one plane or cylinder.
+    /// Vertices where one cylinder cuts one plane or cylinder, or ends at a wall that it is tangent to.
     void place_vertices()
     {
         struct At {
-            int rim = -1, face = -1;
+            std::vector<int> rim, around;
             bool alone = true;
-            std::vector<int> around;
         };
         std::vector<At> at(size_t(outer_.vertices()));
         for (int f = 0; f < outer_.triangles(); ++f)
             for (int k = 0; k < 3; ++k) {
                 At& here = at[size_t(outer_.triangle(k, f))];
-                here.alone = here.alone && (here.face < 0 || same(here.face, f));
-                here.face = f;
+                here.alone = here.alone && (here.around.empty() || same(here.around.back(), f));
                 here.around.push_back(f);
                 if (const int rim = rim_at(f, k); rim >= 0)
-                    for (const int end : {outer_.triangle(k, f), outer_.triangle((k + 1) % 3, f)}) {
-                        At& there = at[size_t(end)];
-                        there.alone =
-                            there.alone && surface_[size_t(rim)].kind == Kind::cylinder &&
-                            (there.rim < 0 || same_cylinder(surface_[size_t(there.rim)], surface_[size_t(rim)]));
-                        there.rim = rim;
-                    }
+                    for (const int end : {outer_.triangle(k, f), outer_.triangle((k + 1) % 3, f)})
+                        at[size_t(end)].rim.push_back(rim);
             }
-        for (int v = 0; v < outer_.vertices(); ++v)
-            if (const At& here = at[size_t(v)]; here.alone && here.rim >= 0)
-                if (const auto level = levels(here.face, v)) {
-                    auto place = middle_.mesh.position.col(v);
-                    const auto exact = onto_both(rim_level(here.rim), level->second, place, half_);
-                    if (!exact)
-                        continue;
-                    const Eigen::Vector3d was = place;
-                    place = *exact;
-                    if (!std::ranges::all_of(here.around, [&](int f) { return upright(f, corners(middle_.mesh, f)); }))
-                        place = was;
-                }
+        for (int v = 0; v < outer_.vertices(); ++v) {
+            const At& here = at[size_t(v)];
+            if (!here.alone || here.rim.empty())
+                continue;
+            const auto level = levels(here.around.back(), v);
+            if (!level)
+                continue;
+            const Eigen::Vector3d up = level->second.normal(middle_.mesh.position.col(v));
+            const auto cylinder = std::ranges::find_if(here.rim, [&](int rim) { return crosses(rim, up); });
+            if (cylinder == here.rim.end())
+                continue;
+            auto place = middle_.mesh.position.col(v);
+            const auto exact = onto_both(rim_level(*cylinder), level->second, start(v, *cylinder, *level), half_);
+            if (!exact || !std::ranges::all_of(here.rim, [&](int rim) {
+                    return tangent(*cylinder, rim, *exact, level->second.normal(*exact));
+                }))
+                continue;
+            const Eigen::Vector3d was = place;
+            place = *exact;
+            if (!std::ranges::all_of(here.around, [&](int f) { return upright(f, corners(middle_.mesh, f)); }))
+                place = was;
+        }
     }
 
     int divide_chords()
@@ -171,8 +174,10 @@ public:
     }
 
 private:
+    static constexpr double on_it = 1e-3; // of the thickness: gaps between CAD faces
     SkinMesh& middle_;
     TriMesh& outer_;
+    const TriMesh& solid_;
     double half_;
     const std::vector<StatedSurface>& surface_;
     std::map<std::pair<int, int>, int> rim_; ///< per edge of the outer skin, vertices of the solid:
@@ -182,9 +187,9 @@ private:
     std::vector<Eigen::Vector3d> new_outer_, new_middle_;
     std::vector<int> new_source_;
 
-    void find_border(const TriMesh& solid, const ThinSolid& sheet, const std::vector<int>& done)
+    void find_border(const ThinSolid& sheet, const std::vector<int>& done)
     {
-        const std::vector<EdgeUse> uses = edge_uses(solid.triangle);
+        const std::vector<EdgeUse> uses = edge_uses(solid_.triangle);
         for_each_edge(uses, [&](size_t begin, size_t end) {
             if (end != begin + 2)
                 return;
@@ -195,6 +200,43 @@ private:
                 !std::ranges::binary_search(done, other))
                 rim_[{uses[begin].low, uses[begin].high}] = other;
         });
+        const Eigen::Matrix3Xi next = face_neighbours(solid_.triangles(), uses);
+        for (auto& [edge, rim] : rim_)
+            if (surface_[size_t(rim)].kind == Kind::other)
+                rim = wall_beyond(edge, rim, sheet, next).value_or(rim);
+        std::erase_if(rim_, [&](const auto& each) { return std::ranges::binary_search(done, each.second); });
+    }
+    /// A triangle of the cylinder that a chamfer or a rounding of its edge goes around, the nearest over
+    /// such faces.
+    /// @param across  the triangle of the chamfer
+    std::optional<int> wall_beyond(const std::pair<int, int>& edge, int across, const ThinSolid& sheet,
+                                   const Eigen::Matrix3Xi& next) const
+    {
+        constexpr size_t most = 1000; // triangles, of a rounding in many rows
+        std::vector<int> reached{across};
+        for (size_t i = 0; i < reached.size() && i < most; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const int f = next(k, reached[i]);
+                if (f < 0 || sheet.side[size_t(f)] != SheetSide::rim || std::ranges::find(reached, f) != reached.end())
+                    continue;
+                const StatedSurface& s = surface_[size_t(f)];
+                if (s.kind == Kind::other)
+                    reached.push_back(f);
+                else if (s.kind == Kind::cylinder &&
+                         around(s, solid_.position.col(edge.first), solid_.position.col(edge.second)))
+                    return f;
+            }
+        return std::nullopt;
+    }
+    /// The cylinder with the axis of a stated one that a chord goes around, but for rounding.
+    std::optional<Level> around(const StatedSurface& cylinder, const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
+    {
+        constexpr double along = 0.9; // cosine of 26 degrees: the rounding of a straight edge
+        const Level axis{cylinder, 0};
+        if (std::abs((b - a).dot(cylinder.direction)) > along * (b - a).norm())
+            return std::nullopt;
+        const double at = axis.value(a);
+        return std::abs(axis.value(b) - at) < 2 * on_it * half_ ? std::optional(Level{cylinder, at}) : std::nullopt;
     }
     const StatedSurface& under(int f) const { return surface_[size_t(middle_.source_face[size_t(f)])]; }
     bool same(int f, int g) const
@@ -216,6 +258,36 @@ private:
     }
     Level rim_level(int rim) const { return {surface_[size_t(rim)], surface_[size_t(rim)].radius}; }
 
+    /// Where to look for a vertex's place: where it is; of a chamfered border at the skin, square to the
+    /// wall from its place, since there it ends where the wall does.
+    Eigen::Vector3d start(int v, int wall, const std::pair<Level, Level>& level) const
+    {
+        const Eigen::Vector3d at_skin = outer_.position.col(v), here = middle_.mesh.position.col(v);
+        const bool chamfered = std::abs(rim_level(wall).value(at_skin)) > 2 * on_it * half_;
+        return chamfered ? at_skin - level.second.value(at_skin) * level.second.normal(at_skin) : here;
+    }
+    /// Whether a triangle is of a cylinder across the sheet, with the normal `up`: no rounding along it.
+    bool crosses(int rim, const Eigen::Vector3d& up) const
+    {
+        constexpr double most_oblique = 0.5; // cosine of 60 degrees
+        const StatedSurface& s = surface_[size_t(rim)];
+        return s.kind == Kind::cylinder && std::abs(s.direction.dot(up)) > most_oblique;
+    }
+    /// Whether the wall of a triangle, or what is beyond its chamfer, goes on from a cylinder without a
+    /// corner at a place of the middle surface with the normal `up`.
+    bool tangent(int cylinder, int rim, const Eigen::Vector3d& place, const Eigen::Vector3d& up) const
+    {
+        constexpr double smooth = 1e-3; // radians; gaps between CAD faces
+        const auto along_sheet = [&](int wall) {
+            const StatedSurface& s = surface_[size_t(wall)];
+            const Eigen::Matrix3d c = corners(solid_, wall);
+            const Eigen::Vector3d n =
+                s.kind == Kind::cylinder ? Level{s, 0}.normal(place) : (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
+            return (n - n.dot(up) * up).normalized();
+        };
+        return along_sheet(cylinder).cross(along_sheet(rim)).norm() < smooth;
+    }
+
     /// Of the outer skin and of the middle surface at a vertex; none where it is not on what CAD
     /// states.
     std::optional<std::pair<Level, Level>> levels(int f, int v) const
@@ -224,7 +296,6 @@ private:
         if (s.kind == Kind::other)
             return std::nullopt;
         Level outer{s, s.kind == Kind::plane ? 0 : s.radius};
-        constexpr double on_it = 1e-3; // of the thickness: gaps between CAD faces
         if (std::abs(outer.value(outer_.position.col(v))) > 2 * on_it * half_)
             return std::nullopt;
         const double side = outer.value(middle_.mesh.position.col(v)) > 0 ? 1 : -1;
@@ -279,8 +350,11 @@ private:
         const auto at_a = levels(f, a), at_b = levels(f, b);
         if (!at_a || !at_b || at_a->second.at != at_b->second.at)
             return {};
-        const Level cut = rim_level(rim);
         const auto &outer = outer_.position, &middle = middle_.mesh.position;
+        const Level cut = rim_level(rim);
+        const auto cut_outer = around(cut.of, outer.col(a), outer.col(b)); // wider where it is chamfered
+        if (!cut_outer)
+            return {};
         constexpr double finest = 3 * std::numbers::pi / 180, most = std::numbers::pi / 2;
         const double angle = turn(cut, at_a->second, middle.col(a), middle.col(b));
         const int pieces = int(std::ceil(angle / finest - 1e-6));
@@ -292,7 +366,7 @@ private:
             const double share = double(i) / pieces;
             const auto within = [&](const auto& p) { return (p.col(a) - p.col(b)).norm() / 2; };
             const auto exact_outer =
-                onto_both(cut, at_a->first, (1 - share) * outer.col(a) + share * outer.col(b), within(outer));
+                onto_both(*cut_outer, at_a->first, (1 - share) * outer.col(a) + share * outer.col(b), within(outer));
             const auto exact_middle =
                 onto_both(cut, at_a->second, (1 - share) * middle.col(a) + share * middle.col(b), within(middle));
             if (!exact_outer || !exact_middle)

@@ -293,23 +293,38 @@ TopoDS_Shape stamped(const TopoDS_Shape& shape, const BentSolid& solid, const Pr
     return stamp.depth > 0 ? BRepAlgoAPI_Cut(shape, mark).Shape() : BRepAlgoAPI_Fuse(shape, mark).Shape();
 }
 
-TopoDS_Shape with_broken_edges(const TopoDS_Shape& shape, const BentSolid& solid, const Profile& profile)
+/// Whether a face of the solid is one of these sides: its middle is there.
+bool on_side(const TopoDS_Shape& face, const BentSolid& solid, const Profile& profile, const std::vector<double>& sides)
 {
-    const BrokenEdges& broken = solid.broken;
+    const BRepAdaptor_Surface surface(TopoDS::Face(face));
+    const gp_Pnt middle = surface.Value((surface.FirstUParameter() + surface.LastUParameter()) / 2,
+                                        (surface.FirstVParameter() + surface.LastVParameter()) / 2);
+    return std::ranges::any_of(profile.pieces(), [&](const Profile::Piece& piece) {
+        return std::ranges::any_of(sides, [&](double side) {
+            const gp_Pnt there = beside(profile, piece, (piece.from + piece.to) / 2, side);
+            return there.Translated(gp_Vec(0, solid.width / 2, 0)).Distance(middle) < 1e-6;
+        });
+    });
+}
+
+TopoDS_Shape with_round_corners(const TopoDS_Shape& shape, const BentSolid& solid, const Profile& profile)
+{
+    TopTools_IndexedDataMapOfShapeListOfShape faces;
+    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+    BRepFilletAPI_MakeFillet fillet(shape);
+    const std::vector<double> sides = {solid.thickness / 2, -solid.thickness / 2};
+    for (int i = 1; i <= faces.Extent(); ++i)
+        if (!on_side(faces(i).First(), solid, profile, sides) && !on_side(faces(i).Last(), solid, profile, sides))
+            fillet.Add(solid.corner, TopoDS::Edge(faces.FindKey(i)));
+    return fillet.Shape();
+}
+
+TopoDS_Shape with_broken_edges(const TopoDS_Shape& shape, const BentSolid& solid, const Profile& profile,
+                               const BrokenEdges& broken)
+{
     std::vector<double> sides = {(broken.left ? 1 : -1) * solid.thickness / 2};
     if (broken.both)
         sides.push_back(-sides.front());
-    const auto on_side = [&](const TopoDS_Shape& face) {
-        const BRepAdaptor_Surface surface(TopoDS::Face(face));
-        const gp_Pnt middle = surface.Value((surface.FirstUParameter() + surface.LastUParameter()) / 2,
-                                            (surface.FirstVParameter() + surface.LastVParameter()) / 2);
-        return std::ranges::any_of(profile.pieces(), [&](const Profile::Piece& piece) {
-            return std::ranges::any_of(sides, [&](double side) {
-                const gp_Pnt there = beside(profile, piece, (piece.from + piece.to) / 2, side);
-                return there.Translated(gp_Vec(0, solid.width / 2, 0)).Distance(middle) < 1e-6;
-            });
-        });
-    };
     TopTools_IndexedDataMapOfShapeListOfShape faces;
     TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
     BRepFilletAPI_MakeChamfer chamfer(shape);
@@ -317,7 +332,7 @@ TopoDS_Shape with_broken_edges(const TopoDS_Shape& shape, const BentSolid& solid
     int left = broken.edges > 0 ? broken.edges : faces.Extent();
     for (int i = 1; i <= faces.Extent() && left > 0; ++i) {
         const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
-        if (on_side(faces(i).First()) == on_side(faces(i).Last()))
+        if (on_side(faces(i).First(), solid, profile, sides) == on_side(faces(i).Last(), solid, profile, sides))
             continue;
         --left;
         if (broken.round)
@@ -333,8 +348,11 @@ TopoDS_Shape made(const BentSolid& solid)
     const Profile profile = middle_of(solid);
     const auto& pieces = profile.pieces();
     TopoDS_Shape shape = layer(solid, profile, solid.thickness / 2, -solid.thickness / 2);
-    if (solid.broken.size > 0)
-        shape = with_broken_edges(shape, solid, profile);
+    if (solid.corner > 0)
+        shape = with_round_corners(shape, solid, profile);
+    for (const BrokenEdges& broken : {solid.broken, solid.broken_too})
+        if (broken.size > 0)
+            shape = with_broken_edges(shape, solid, profile, broken);
     if (solid.hole) {
         const Profile::Piece& bend = pieces[1];
         const double s = (bend.from + bend.to) / 2, h = heading(bend, s);

@@ -108,9 +108,10 @@ struct BentSolid {
     std::vector<Stamp> stamp = {}; ///< of brackets, which have one bend
     std::vector<BendCut> bend_cut = {};
     std::vector<Emboss> emboss = {};
-    BrokenEdges broken = {};
-    std::vector<Rebate> rebate = {}; ///< after the edges are broken
-    std::uint64_t pose = 0;          ///< turned and moved by this seed; 0: as said
+    double corner = 0;                        ///< mm, radius of the four corners; 0: sharp
+    BrokenEdges broken = {}, broken_too = {}; ///< one after the other
+    std::vector<Rebate> rebate = {};          ///< after the edges are broken
+    std::uint64_t pose = 0;                   ///< turned and moved by this seed; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
     double developed(double k) const;
