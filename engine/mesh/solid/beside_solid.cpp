@@ -43,6 +43,25 @@ double beside(const BorderPlace& at, const SheetSection& section, double toleran
     return section.ends(at, within) || section.halfway_along_a_wall(at, end, within) ? 0 : end;
 }
 
+/// Near the ends of long edges at square walls, where their middles say the least: one end may be
+/// right, and the other beside its place by twice as much. By more something else is over it.
+/// @param at  of the loop, as places_of() has them
+/// @param beside  of each; those of edges that are right in the middle get what an end is off
+void look_at_ends(const std::vector<BorderPlace>& at, const SheetSection& section, double tolerance, double longer,
+                  const auto& beside_at, std::vector<double>& beside)
+{
+    constexpr double near = 0.9, most = 4; // of the way from the middle; tolerances
+    const size_t n = at.size();
+    for (size_t i = 1; i < n; i += 2)
+        for (const size_t corner : {i - 1, (i + 1) % n}) {
+            const Eigen::Vector3d half = at[corner].place - at[i].place;
+            if (beside[i] != 0 || half.norm() < longer / 2 || !section.square_wall(at[i], tolerance))
+                continue;
+            const double off = beside_at({at[i].place + near * half, at[i].normal, at[i].outward});
+            beside[i] = std::abs(off) <= most * tolerance ? off : 0;
+        }
+}
+
 } // namespace
 
 std::vector<BesideLoop> beside_loops(const TriMesh& middle, const TriMesh& solid, double thickness, double tolerance,
@@ -52,10 +71,15 @@ std::vector<BesideLoop> beside_loops(const TriMesh& middle, const TriMesh& solid
     const SheetSection section(solid, thickness);
     const Eigen::Matrix3Xd normal = vertex_normals(middle);
     constexpr double most = 8; // thicknesses that are looked at
+    const auto beside_at = [&](const BorderPlace& at) {
+        return beside(at, section, tolerance, deflection, most * thickness);
+    };
     for (std::vector<int>& loop : boundary_loops(middle)) {
         BesideLoop here{std::move(loop), {}};
-        for (const BorderPlace& at : places_of(here.vertex, middle, normal))
-            here.beside.push_back(beside(at, section, tolerance, deflection, most * thickness));
+        const std::vector<BorderPlace> places = places_of(here.vertex, middle, normal);
+        for (const BorderPlace& at : places)
+            here.beside.push_back(beside_at(at));
+        look_at_ends(places, section, tolerance, thickness, beside_at, here.beside);
         result.push_back(std::move(here));
     }
     return result;

@@ -96,9 +96,10 @@ bool SheetSection::halfway_along_a_wall(const BorderPlace& at, double end, doubl
 bool SheetSection::square_wall(const BorderPlace& at, double within) const
 {
     constexpr double square = 0.02, outwards = 0.5; // sine of 1 degree; cosine of 60
-    return std::ranges::any_of(near(at.place, within), [&](int f) {
+    return std::ranges::any_of(near(at.place, half_), [&](int f) {
         const Eigen::Vector3d n = (inside_out_ ? -1 : 1) * normal(f).normalized();
-        return std::abs(n.dot(at.normal)) <= square && n.dot(at.outward) > outwards;
+        return std::abs(n.dot(at.normal)) <= square && n.dot(at.outward) > outwards &&
+               std::abs(n.dot(corners(f).col(0) - at.place)) <= within;
     });
 }
 

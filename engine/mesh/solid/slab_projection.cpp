@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/flat/polygon_union.h"
 #include "engine/mesh/vectors.h"
 
@@ -57,35 +57,48 @@ std::vector<Eigen::Matrix2Xd> around_upper(const TriMesh& solid, const std::vect
     return rows;
 }
 
-/// Those of walls that cross the whole slab askew.
+/// Those of walls that cross the whole slab askew. A wall leans alike all along: what turns away from
+/// it is that of a bend beside the flat.
 std::vector<SlabTriangle> askew(const TriMesh& solid, const std::vector<SlabTriangle>& slab, double half)
 {
     constexpr double square = 0.02, level = 0.985, smooth = 0.9; // sines of 1 and 80 degrees; cosine of 25
+    constexpr double alike = 0.02;                               // of the sine
     std::vector<SlabTriangle> leaning;
     for (const SlabTriangle& each : slab)
         if (std::abs(each.lean) > square && std::abs(each.lean) < level)
             leaning.push_back(each);
     const std::vector<EdgeUse> uses =
         edge_uses(int(leaning.size()), [&](int i, int k) { return solid.triangle(k, leaning[size_t(i)].face); });
-    DisjointSets wall(leaning.size());
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        for (size_t i = begin + 1; i < end; ++i) {
-            const SlabTriangle &one = leaning[size_t(uses[begin].face)], &other = leaning[size_t(uses[i].face)];
-            if (one.outwards.dot(other.outwards) + one.lean * other.lean > smooth)
-                wall.join(uses[begin].face, uses[i].face);
-        }
-    });
-    std::map<int, std::pair<double, double>> reach; // mm, down and up
-    for (size_t i = 0; i < leaning.size(); ++i) {
-        auto& [low, high] = reach[wall.root(int(i))];
-        low = std::min(low, leaning[i].height.minCoeff());
-        high = std::max(high, leaning[i].height.maxCoeff());
-    }
+    const Eigen::Matrix3Xi neighbour = face_neighbours(int(leaning.size()), uses);
     constexpr double nearly = 0.98;
     std::vector<SlabTriangle> result;
-    for (size_t i = 0; i < leaning.size(); ++i)
-        if (const auto& [low, high] = reach[wall.root(int(i))]; low < -nearly * half && high > nearly * half)
-            result.push_back(leaning[i]);
+    std::vector<char> taken(leaning.size(), 0);
+    for (size_t seed = 0; seed < leaning.size(); ++seed) {
+        if (taken[seed])
+            continue;
+        taken[seed] = 1;
+        std::vector<int> wall{int(seed)};
+        double low = 0, high = 0; // mm
+        for (size_t i = 0; i < wall.size(); ++i) {
+            const SlabTriangle& one = leaning[size_t(wall[i])];
+            low = std::min(low, one.height.minCoeff());
+            high = std::max(high, one.height.maxCoeff());
+            for (int k = 0; k < 3; ++k) {
+                const int next = neighbour(k, wall[i]);
+                if (next < 0 || taken[size_t(next)])
+                    continue;
+                const SlabTriangle& other = leaning[size_t(next)];
+                if (one.outwards.dot(other.outwards) + one.lean * other.lean > smooth &&
+                    std::abs(other.lean - leaning[seed].lean) < alike) {
+                    taken[size_t(next)] = 1;
+                    wall.push_back(next);
+                }
+            }
+        }
+        if (low < -nearly * half && high > nearly * half)
+            for (const int i : wall)
+                result.push_back(leaning[size_t(i)]);
+    }
     return result;
 }
 
