@@ -196,14 +196,16 @@ PlainPart without_its_marks(const PartFile& part, const CornerNormals* normals, 
     return plain;
 }
 
-/// Says why it is a hollow body, if it may be another thing.
-void note_hollow(PartFile& part, const std::string& why)
+/// A doubt that says why it is a hollow body, if it may be another thing.
+Remarks on_hollow(const TriMesh& mesh, const std::string& why)
 {
-    if (seems_thin_solid(part.mesh))
-        part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of sheet; "
-                                         "but {}. It is taken as a hollow body; if it is a solid of sheet, choose the "
-                                         "skin that stands for it ({}) for the reason to refuse it",
-                                         why, mention(option::skin, "middle")));
+    Remarks remarks;
+    if (seems_thin_solid(mesh))
+        remarks.doubt(fmt::format("most of it lies opposite to another part of itself, as in a solid of sheet; "
+                                  "but {}. It is taken as a hollow body; if it is a solid of sheet, choose the "
+                                  "skin that stands for it ({}) for the reason to refuse it",
+                                  why, mention(option::skin, "middle")));
+    return remarks;
 }
 
 /// "a solid of sheet 2 mm thick and a hollow body of its size are the same closed surface, ..."
@@ -489,7 +491,7 @@ TakenSkin take_skin(PartFile part, const ReadOptions& options, bool solid, const
         return {with_skin(part, claim, options, solid, normals, progress)};
     } catch (const NotASheet& reason) {
         if (claim == Claim::measured && !reason.sheet_but_for_it) {
-            note_hollow(part, reason.what());
+            add(part, on_hollow(part.mesh, reason.what()));
             return {std::move(part)};
         }
         if (open)

@@ -8,6 +8,7 @@
 
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/solid/piece_shares.h"
 #include "engine/mesh/solid/thin_floors.h"
 
 namespace spia {
@@ -21,9 +22,9 @@ constexpr double speck = 0.005; // of the surface: what is smaller is no piece o
 template <class Counts>
 std::string how_deep(const SolidInPieces& solid, PieceSide side, double thickness, const Counts& counts)
 {
-    std::vector<char> chosen;
+    std::vector<char> chosen(size_t(solid.pieces.count()));
     for (int p = 0; p < solid.pieces.count(); ++p)
-        chosen.push_back(counts(p));
+        chosen[size_t(p)] = counts(p);
     const double depth = depth_of(solid.mesh, solid.pieces, solid.sides.side, chosen, side, thickness);
     return depth > 0 ? fmt::format(", {:.4g} mm off the level of that side; marks of up to {:.4g} mm, {:.2g} of the "
                                    "thickness, would be passed over",
@@ -239,14 +240,20 @@ void require_rim(const SolidInPieces& solid)
 }
 
 /// Coined or thickened places.
-void require_even(const SolidInPieces& solid, const std::vector<LocalThickness>& local, double thickness)
+void require_even(const SolidInPieces& solid, const std::vector<LocalThickness>& local,
+                  const std::vector<SheetMark>& marks, double thickness)
 {
     constexpr double thin = 0.75, fat = 1.5; // a bend with the same radius on both sides is 1.41
                                              // times as thick
     constexpr double most_share = 0.02;
+    std::vector<char> of_mark(size_t(solid.mesh.triangles()), 0);
+    for (const SheetMark& mark : marks)
+        for (const int f : mark.floor)
+            of_mark[size_t(f)] = 1;
     std::map<int, std::vector<std::pair<double, double>>> of_piece;
     for (const LocalThickness& at : local)
-        of_piece[solid.piece(at.face)].emplace_back(at.thickness, at.area);
+        if (!of_mark[size_t(at.face)])
+            of_piece[solid.piece(at.face)].emplace_back(at.thickness, at.area);
     double whole = 0, off = 0, worst_area = 0, worst_thickness = 0;
     int worst = -1;
     for (const auto& [p, values] : of_piece) {

@@ -29,6 +29,8 @@ void require_no_thin_floor(const SolidInPieces&, double thickness, double area, 
 void require_rim(const SolidInPieces&);
 
 /// No more than a small share is coined or thickened.
-void require_even(const SolidInPieces&, const std::vector<LocalThickness>&, double thickness);
+/// @param marks  are passed over
+void require_even(const SolidInPieces&, const std::vector<LocalThickness>&, const std::vector<SheetMark>& marks,
+                  double thickness);
 
 } // namespace spia

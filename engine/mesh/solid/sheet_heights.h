@@ -24,17 +24,20 @@ public:
     {
     }
     ClosestPoint nearest(int v) const { return search_.nearest(position_.col(v), within_); }
-    /// mm, of a vertex of plane skin with this normal, unit: where the other skin is plane below it and
-    /// has a hole opposite, its nearest place is the rim of that, askew; then square to the skin.
+    /// mm, of a vertex of a skin with this normal, unit: where the other skin has a hole or a step
+    /// opposite, its nearest place is the rim of that, askew; then square to the skin, or where that is
+    /// bent to the nearest triangle.
     double square_to(int v, const Eigen::Vector3d& normal)
     {
         constexpr double parallel = 1 - 1e-6; // 0.1 degrees
+        constexpr double below = 0.97;        // 14 degrees: more than chords of bends are askew by
         const ClosestPoint near = nearest(v);
         if (near.face < 0)
             return within_;
-        return std::abs(this->normal(near.face).dot(normal)) > parallel
-                   ? std::abs((position_.col(v) - near.position).dot(normal))
-                   : (*this)(v);
+        if (std::abs(this->normal(near.face).dot(normal)) > parallel)
+            return std::abs((position_.col(v) - near.position).dot(normal));
+        const double square = over_nearest(v), straight = (*this)(v);
+        return square > below * straight ? straight : square;
     }
     double operator()(int v)
     {

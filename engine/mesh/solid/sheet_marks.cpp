@@ -17,6 +17,10 @@
 namespace spia {
 namespace {
 
+/// Of the thickness: heights over the chords of coarse bends are off by the deflection; how deep a
+/// mark is, its walls tell then.
+constexpr double deepest_over_chords = deepest_mark + 0.05;
+
 PieceSide other_of(PieceSide side) { return side == PieceSide::one ? PieceSide::other : PieceSide::one; }
 
 /// Of each side the pieces that hang together with its largest ones.
@@ -101,7 +105,7 @@ void take_out_floors(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const 
         constexpr double off = 4 * chords_off_bends, half = 0.5;
         for (int p = 0; p < pieces.count(); ++p)
             if (of_skin(p) && perhaps[size_t(p)] && pieces.area[size_t(p)] < half * whole &&
-                most[size_t(p)] <= (deepest_mark + chords_off_bends) * thickness &&
+                most[size_t(p)] <= deepest_over_chords * thickness &&
                 std::abs(sum[size_t(p)]) > off * thickness * pieces.area[size_t(p)])
                 main[size_t(p)] = 0;
     }
@@ -130,8 +134,8 @@ SkinAt skin_at_vertices(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, con
 }
 
 /// The most at the feet of its walls: of the steepest way up to the skin from there its height; on
-/// a bend, whose chords' normals are off, its length if it goes straight up. Else how far the foot
-/// is off the level of its own.
+/// a bend, whose chords' normals are off, its length if it goes about straight up; what is on flats
+/// too is told by them. Else how far the foot is off the level of its own.
 /// @param above  mm, a vertex over that level
 double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& skin, const HeightAboveSkin& above,
                      double thickness)
@@ -162,12 +166,16 @@ double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& s
                             way = {cosine, edge.norm(), skin.plane(w)};
                     }
             }
+        double in_flats = 0, in_bends = 0;
         for (const auto& [v, way] : up) {
             const double off = std::abs(above(v));
             const double high = !way.plane && way.cosine > straight ? way.length : way.cosine * way.length;
             const bool by_wall = high > 0 && std::abs(high - off) < 0.25 * off + 4 * chords_off_bends * thickness;
-            most = std::max(most, by_wall ? high : off);
+            double& here = way.plane ? in_flats : in_bends;
+            here = std::max(here, by_wall ? high : off);
         }
+        constexpr double askew = 1.15; // what a way up a bend is longer by, 30 degrees off its radius
+        most = in_bends > askew * in_flats ? in_bends : in_flats;
     }
     return most;
 }
@@ -185,18 +193,27 @@ double turned_outwards(const TriMesh& mesh, const Eigen::Matrix3Xd& normal)
 /// Of a groove with two ends at the rim, the share of its outline there; a chamfer has about half.
 constexpr double most_rim = 0.25;
 
+/// mm, of each piece, where it touches others.
+std::vector<double> outlines(const SurfacePieces& pieces)
+{
+    std::vector<double> result(size_t(pieces.count()), 0);
+    for (const PieceContact& c : pieces.contact)
+        for (const int p : {c.a, c.b})
+            result[size_t(p)] += c.length();
+    return result;
+}
+
 /// Takes chamfers of the border off pieces that may be of marks: else one beside a step would be a
 /// wall of that.
 void leave_chamfers(const SurfacePieces& pieces, const std::vector<PieceSide>& side, const std::vector<char>& main,
                     PieceSide skin, std::vector<char>& level)
 {
-    std::vector<double> along_rim(level.size(), 0), whole(level.size(), 0);
+    const std::vector<double> whole = outlines(pieces);
+    std::vector<double> along_rim(level.size(), 0);
     for (const PieceContact& c : pieces.contact)
-        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
-            whole[size_t(p)] += c.length();
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
             if (!level[size_t(q)] && !(main[size_t(q)] && side[size_t(q)] == skin))
                 along_rim[size_t(p)] += c.length();
-        }
     for (size_t p = 0; p < level.size(); ++p)
         level[p] &= side[p] == skin || along_rim[p] < most_rim * whole[p];
 }
@@ -222,14 +239,17 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
                 side[piece(f)] == skin ? above_skin.of_floor(v, normal.col(f).normalized()) : above_skin(v);
             off[piece(f)] = std::max(off[piece(f)], std::abs(above));
             raised[piece(f)] += above * normal.col(f).norm();
-            level[piece(f)] = off[piece(f)] <= (deepest_mark + chords_off_bends) * thickness;
+            level[piece(f)] = off[piece(f)] <= deepest_over_chords * thickness;
         }
 
     leave_chamfers(pieces, side, main, skin, level);
 
+    constexpr double beside = 0.02; // of an outline: the end of a step's wall at the rounding of a border
+    const std::vector<double> around = outlines(pieces);
     DisjointSets together(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
-        if (level[size_t(c.a)] && level[size_t(c.b)])
+        if (level[size_t(c.a)] && level[size_t(c.b)] &&
+            c.length() > beside * std::min(around[size_t(c.a)], around[size_t(c.b)]))
             together.join(c.a, c.b);
     struct Group {
         double along_skin = 0, along_rim = 0, smoothly = 0; ///< mm; the last one of the first

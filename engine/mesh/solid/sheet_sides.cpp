@@ -2,25 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/solid/piece_shares.h"
 
 namespace spia {
 namespace {
-
-constexpr double sure = 0.8; // of a piece's area lies opposite to another: it belongs to a skin
-constexpr double likely = 0.5;
-constexpr double least_facing = 0.72;                       // 44 degrees: not chamfers
-constexpr double steepest = 0.5;                            // 60 degrees: a countersink, if it is
-                                                            // askew all over
-constexpr double least_distance = 0.6, most_distance = 1.7; // of the thickness
-constexpr double parallel = 0.94;                           // 20 degrees: chords of one bend on
-                                                            // both sides are askew by less
-constexpr double mostly_sloped = 0.75;                      // of a piece; of sharp bends' outer
-                                                            // sides a half
 
 /// Two pieces that are on the same skin or on different ones.
 struct Relation {
@@ -64,79 +55,32 @@ private:
     std::vector<int> size_ = std::vector<int>(parent_.size(), 1);
 };
 
-std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness)
+/// Of pieces that a low wall parts, as a step and its skin.
+std::vector<Relation> over_low_walls(const SurfacePieces& pieces, const std::vector<char>& low, const auto& skin)
 {
-    std::vector<double> share(size_t(pieces.count()), 0);
-    for (const Opposite& at : places)
-        if (across(at, thickness)) {
-            const auto p = size_t(pieces.piece[size_t(at.face)]);
-            share[p] += at.area / pieces.area[p];
-        }
-    // Low walls around raised marks lie opposite to each other, too; strips of bends go on smoothly
-    // at their sides. Of a wall along a curve each chord may be a piece, not longer than it is
-    // high: its sharp edges alone tell its height.
-    constexpr double low = 0.25; // of the thickness, for twice the area over the outline: the
-                                 // height of a wall
-    std::vector<double> around(size_t(pieces.count()), 0), smooth(size_t(pieces.count()), 0);
+    std::map<int, std::vector<const PieceContact*>> beside;
     for (const PieceContact& c : pieces.contact)
-        for (const int p : {c.a, c.b}) {
-            around[size_t(p)] += c.length();
-            smooth[size_t(p)] += c.smooth;
-        }
-    for (size_t p = 0; p < share.size(); ++p) {
-        const bool wall = smooth[p] < around[p] / 2 && 2 * pieces.area[p] < low * thickness * around[p],
-                   chord = 2 * pieces.area[p] < low * thickness * (around[p] - smooth[p]);
-        if (wall || chord)
-            share[p] = 0;
-    }
-    return share;
-}
-
-/// Of each piece the share of its area that lies askew to the other side, as of countersinks and
-/// wide chamfers.
-/// @param least  the cosine of the steepest slope
-std::vector<double> sloped_shares(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness,
-                                  double least)
-{
-    std::vector<double> share(size_t(pieces.count()), 0);
-    for (const Opposite& at : places)
-        if (at.hit >= 0 && at.facing > least && at.facing < parallel && at.distance < most_distance * thickness) {
-            const auto p = size_t(pieces.piece[size_t(at.face)]);
-            share[p] += at.area / pieces.area[p];
-        }
-    return share;
-}
-
-/// The outer sides of sharp bends are askew to the inner ones as well; but they go on smoothly at
-/// most of their outline, whereas a countersink ends at its hole.
-void keep_bends(const SurfacePieces& pieces, std::vector<double>& sloped)
-{
-    constexpr double ends = 0.25;         // of what goes on smoothly; of a hole half as wide as its
-                                          // countersink 0.5
-    DisjointSets together(sloped.size()); // a countersink may be in several pieces
-    const auto steep = [&](int p) { return sloped[size_t(p)] > mostly_sloped; };
-    for (const PieceContact& c : pieces.contact)
-        if (c.smooth > 0 && steep(c.a) && steep(c.b))
-            together.join(c.a, c.b);
-    std::vector<double> smooth(sloped.size(), 0), sharp(sloped.size(), 0);
-    for (const PieceContact& c : pieces.contact) {
-        if (steep(c.a) && steep(c.b) && together.root(c.a) == together.root(c.b))
-            continue;
-        for (const int p : {c.a, c.b}) {
-            smooth[size_t(together.root(p))] += c.smooth;
-            sharp[size_t(together.root(p))] += c.concave + c.convex;
+        for (const auto& [wall, other] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+            if (low[size_t(wall)] && skin(other))
+                beside[wall].push_back(&c);
+    std::vector<Relation> result;
+    for (const auto& [wall, contacts] : beside) {
+        const PieceContact& longest = **std::ranges::max_element(contacts, {}, &PieceContact::length);
+        for (const PieceContact* c : contacts) {
+            constexpr double most_of_it = 0.5; // the rest is a corner
+            const int one = longest.a == wall ? longest.b : longest.a, other = c->a == wall ? c->b : c->a;
+            if (c != &longest && c->length() > most_of_it * longest.length())
+                result.push_back({c->length(), one, other, false, true});
         }
     }
-    for (int p = 0; p < pieces.count(); ++p)
-        if (const auto group = size_t(together.root(p)); sharp[group] < ends * smooth[group])
-            sloped[size_t(p)] = 0;
+    return result;
 }
 
 /// Between pieces that are surely skin.
 std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<Opposite>& places,
-                                const std::vector<double>& share, double thickness)
+                                const PieceShares& share, double thickness)
 {
-    const auto skin = [&](int p) { return share[size_t(p)] >= sure; };
+    const auto skin = [&](int p) { return share.opposite[size_t(p)] >= surely_skin; };
     std::map<std::pair<int, int>, double> facing;
     for (const Opposite& at : places)
         if (across(at, thickness)) {
@@ -155,6 +99,7 @@ std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<O
             else if (contact.concave > 0)
                 result.push_back({contact.concave * thickness, contact.a, contact.b, false, true});
         }
+    std::ranges::move(over_low_walls(pieces, share.low_wall, skin), std::back_inserter(result));
     std::stable_sort(result.begin(), result.end(), [](const Relation& a, const Relation& b) {
         return a.weak != b.weak ? b.weak : a.weight > b.weight;
     });
@@ -166,28 +111,39 @@ using Side = std::vector<int>; // per piece: 0 one, 1 other, -1 not known, `none
 constexpr int none = -2;
 
 /// The largest group of pieces that relations join.
-Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relations, const std::vector<double>& share)
+Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relations,
+                const std::vector<double>& opposite)
 {
     TwoColours colours(pieces.count());
     for (const Relation& relation : relations)
         colours.relate(relation.a, relation.b, relation.differ);
     std::vector<double> area(size_t(pieces.count()), 0);
     for (int p = 0; p < pieces.count(); ++p)
-        if (share[size_t(p)] >= sure)
+        if (opposite[size_t(p)] >= surely_skin)
             area[size_t(colours.root(p).first)] += pieces.area[size_t(p)];
     const int largest = int(std::max_element(area.begin(), area.end()) - area.begin());
     Side side(size_t(pieces.count()), -1);
     for (int p = 0; p < pieces.count(); ++p)
-        if (const auto [root, differs] = colours.root(p); root == largest && share[size_t(p)] >= sure)
+        if (const auto [root, differs] = colours.root(p); root == largest && opposite[size_t(p)] >= surely_skin)
             side[size_t(p)] = differs;
     return side;
 }
 
+/// Per piece the sides that it touches, 1 one, 2 other; across an edge of any kind.
+std::vector<int> touched_sides(const SurfacePieces& pieces, const Side& side)
+{
+    std::vector<int> touched(size_t(pieces.count()), 0);
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+            touched[size_t(p)] |= side[size_t(q)] >= 0 ? side[size_t(q)] + 1 : 0;
+    return touched;
+}
+
 /// Pieces that are not sure, in groups across which the surface goes on smoothly: settled by what a
-/// group touches.
+/// group touches. A chamfer hands on which skin it is at: the rounding of one skin and the wall that
+/// ends at a chamfer of the other are the border's.
 /// @returns whether one was
-bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share, const std::vector<double>& sloped,
-                   Side& side)
+bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, Side& side)
 {
     DisjointSets group(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
@@ -202,16 +158,22 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
         if (side[size_t(p)] == -1) {
             Touch& touch = touches[group.root(p)];
             touch.area += pieces.area[size_t(p)];
-            touch.across += pieces.area[size_t(p)] * share[size_t(p)];
-            touch.sloped += pieces.area[size_t(p)] * sloped[size_t(p)];
+            touch.across += pieces.area[size_t(p)] * share.opposite[size_t(p)];
+            touch.sloped += pieces.area[size_t(p)] * share.sloped[size_t(p)];
         }
+    const std::vector<int> touched = touched_sides(pieces, side);
     for (const PieceContact& c : pieces.contact)
-        for (const auto& [unsure, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
-            if (side[size_t(unsure)] == -1 && side[size_t(known)] >= 0) {
-                Touch& touch = touches[group.root(unsure)];
+        for (const auto& [unsure, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
+            if (side[size_t(unsure)] != -1)
+                continue;
+            Touch& touch = touches[group.root(unsure)];
+            if (side[size_t(known)] >= 0) {
                 touch.smooth[size_t(side[size_t(known)])] += c.smooth;
                 touch.sharp[size_t(side[size_t(known)])] += c.concave + c.convex;
-            }
+            } else if (share.steep[size_t(known)] > mostly_sloped)
+                for (const size_t s : {size_t(0), size_t(1)})
+                    touch.sharp[s] += touched[size_t(known)] & (s + 1) ? c.concave + c.convex : 0;
+        }
     bool settled = false;
     for (int p = 0; p < pieces.count(); ++p) {
         if (side[size_t(p)] != -1)
@@ -220,8 +182,10 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
         if (touch.sloped > mostly_sloped * touch.area)
             continue;
         for (const size_t s : {size_t(0), size_t(1)}) {
+            constexpr double least = 0.1; // a bit of a sink is level with what was put back beside it
             const bool only = touch.smooth[1 - s] + touch.sharp[1 - s] == 0;
-            if (only && (touch.smooth[s] > 0 || (touch.sharp[s] > 0 && touch.across >= likely * touch.area))) {
+            if (only && (touch.smooth[s] > least * (touch.smooth[s] + touch.sharp[s]) ||
+                         (touch.sharp[s] > 0 && touch.across >= touch.area / 2))) {
                 side[size_t(p)] = int(s) + 2; // known from the next round on
                 settled = true;
                 break;
@@ -238,8 +202,8 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
 /// with the share of the inner radius in the outer one. What touches the side that looks at it is
 /// none, and what goes over into the faces across smoothly is a rounding of the border.
 /// @returns whether one was
-bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, const std::vector<double>& share,
-                  const std::vector<double>& sloped, double thickness, Side& side)
+bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, const PieceShares& share,
+                  double thickness, Side& side)
 {
     constexpr double least = 0.1; // of its area
     std::vector<std::array<double, 2>> looked(size_t(pieces.count()), {0, 0});
@@ -247,22 +211,21 @@ bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& plac
         if (across(at, thickness))
             if (const int s = side[size_t(pieces.piece[size_t(at.face)])]; s >= 0)
                 looked[size_t(pieces.piece[size_t(at.hit)])][size_t(s)] += at.area;
-    std::vector<char> touches(size_t(pieces.count()), 0); // 1 one, 2 other
+    const std::vector<int> touched = touched_sides(pieces, side);
     std::vector<double> around(size_t(pieces.count()), 0), into_rim(size_t(pieces.count()), 0);
     for (const PieceContact& c : pieces.contact)
         for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
-            touches[size_t(p)] |= side[size_t(q)] >= 0 ? side[size_t(q)] + 1 : 0;
             around[size_t(p)] += c.length();
-            into_rim[size_t(p)] += side[size_t(q)] < 0 && share[size_t(q)] < least ? c.smooth : 0;
+            into_rim[size_t(p)] += side[size_t(q)] < 0 && share.opposite[size_t(q)] < least ? c.smooth : 0;
         }
     constexpr double rounding = 0.25; // of its outline; of one along a straight border about half
     bool settled = false;
     for (int p = 0; p < pieces.count(); ++p) {
         const auto [one, other] = looked[size_t(p)];
-        if (side[size_t(p)] != -1 || sloped[size_t(p)] > mostly_sloped ||
+        if (side[size_t(p)] != -1 || share.steep[size_t(p)] > mostly_sloped ||
             into_rim[size_t(p)] > rounding * around[size_t(p)] ||
             std::max(one, other) < least * pieces.area[size_t(p)] ||
-            std::min(one, other) > least * std::max(one, other) || (touches[size_t(p)] & (one > other ? 1 : 2)))
+            std::min(one, other) > least * std::max(one, other) || (touched[size_t(p)] & (one > other ? 1 : 2)))
             continue;
         side[size_t(p)] = one > other ? 1 : 0;
         settled = true;
@@ -272,31 +235,16 @@ bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& plac
 
 } // namespace
 
-bool across(const Opposite& place, double thickness)
-{
-    return place.hit >= 0 && place.facing > least_facing && place.distance > least_distance * thickness &&
-           place.distance < most_distance * thickness;
-}
-
 SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness,
                        const std::vector<char>& across_it)
 {
     SheetSides result;
-    result.opposite_area = opposite_shares(pieces, places, thickness);
-    std::vector<double> sloped = sloped_shares(pieces, places, thickness, least_facing);
-    keep_bends(pieces, sloped);
-    // Chords of a countersink of 90 degrees are on both sides of that: the bit of it that faces the
-    // other side says nothing.
-    std::vector<double> steep = sloped_shares(pieces, places, thickness, steepest);
-    keep_bends(pieces, steep);
-    for (size_t p = 0; p < sloped.size(); ++p)
-        if (sloped[p] > mostly_sloped || across_it[p])
-            result.opposite_area[p] = 0;
-    const std::vector<double>& share = result.opposite_area;
-    Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
+    const PieceShares share = piece_shares(pieces, places, thickness, across_it);
+    result.opposite_area = share.opposite;
+    Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share.opposite);
     for (size_t p = 0; p < side.size(); ++p)
         side[p] = across_it[p] ? none : side[p];
-    while (settle_faced(pieces, places, share, steep, thickness, side) || settle_groups(pieces, share, sloped, side)) {
+    while (settle_faced(pieces, places, share, thickness, side) || settle_groups(pieces, share, side)) {
     }
 
     double whole = 0, same = 0, most = 0;

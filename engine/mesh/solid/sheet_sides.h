@@ -25,8 +25,4 @@ struct SheetSides {
 SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness,
                        const std::vector<char>& across_it);
 
-/// Whether the place has a face turned against it at about the thickness: as at mitred edges and in
-/// bends whose radii do not fit each other, too.
-bool across(const Opposite& place, double thickness);
-
 } // namespace spia

@@ -14,32 +14,44 @@ namespace {
 
 constexpr double radians = 3.14159265358979323846 / 180;
 
-/// From the largest triangle on, all that can be reached over triangles with nearly its normal.
+/// From the largest triangle on, all that can be reached over triangles with nearly its normal. A
+/// flat is a piece without the first chords of what is bent or rounded at it.
 std::vector<int> grown_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour)
 {
     const double most_turn = std::cos(12 * radians); // a fraction of the angle between a skin and
                                                      // the faces of a rim
+    const double flat = std::cos(0.5 * radians);     // rounding of coordinates; chords turn by more
+    constexpr double large = 0.01;                   // of the surface
     const Eigen::VectorXd size = normal.colwise().norm();
     std::vector<int> order(size_t(mesh.triangles())), piece(size_t(mesh.triangles()), -1), reached;
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] > size[b]; });
     int count = 0;
-    for (const int seed : order) {
-        if (piece[size_t(seed)] >= 0)
-            continue;
+    const auto grow = [&](int seed, double turn) {
         const Eigen::Vector3d direction = normal.col(seed).normalized();
         piece[size_t(seed)] = count;
         reached.assign(1, seed);
-        while (!reached.empty()) {
-            const int f = reached.back();
-            reached.pop_back();
+        for (size_t i = 0; i < reached.size(); ++i)
             for (int k = 0; k < 3; ++k) {
-                const int next = neighbour(k, f);
-                if (next >= 0 && piece[size_t(next)] < 0 && normal.col(next).dot(direction) >= most_turn * size[next]) {
+                const int next = neighbour(k, reached[i]);
+                if (next >= 0 && piece[size_t(next)] < 0 && normal.col(next).dot(direction) >= turn * size[next]) {
                     piece[size_t(next)] = count;
                     reached.push_back(next);
                 }
             }
+    };
+    const double whole = size.sum();
+    for (const int seed : order) {
+        if (piece[size_t(seed)] >= 0)
+            continue;
+        grow(seed, flat);
+        double area = 0;
+        for (const int f : reached)
+            area += size[f];
+        if (area < large * whole) {
+            for (const int f : reached)
+                piece[size_t(f)] = -1;
+            grow(seed, most_turn);
         }
         ++count;
     }

@@ -198,7 +198,7 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
                                     solid.side(at.hit) != PieceSide::rim);
     thickness = between_vertices(solid, main_distance(solid.places, from_skin_to_skin), marks);
     const std::vector<LocalThickness> local = local_thickness(solid, thickness, progress.part(0.7, 1));
-    require_even(solid, local, thickness);
+    require_even(solid, local, marks, thickness);
 
     ThinSolid result = result_of(solid, std::move(marks), thickness, std::abs(volume), flipped);
     std::vector<std::pair<double, double>> spread;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/flat_area.h"
@@ -139,8 +140,8 @@ TEST(BrokenEdges, OfSomeBordersDoNotMoveThemThroughBends)
         solid.bend = {{t * random.between(0.7, 2), random.between(0.5, 1.6) * (random.coin() ? 1 : -1)}};
         solid.width = t * random.between(10, 20); // some are told to be more like blocks
         solid.pose = seed;
-        // what a chamfer leaves of the wall crosses the middle of the sheet
-        const double share = random.between(0.1, 0.45);
+        // what a chamfer leaves of the wall crosses the middle of the sheet, or ends before it
+        const double share = random.coin() ? random.between(0.1, 0.45) : random.between(0.55, 0.8);
         solid.broken = {t * share, share < 0.3 && random.coin(), random.coin(), share < 0.3, random.whole(2, 14)};
         SCOPED_TRACE(fmt::format("{} of {} edges, {:.3g} of {:.3g} mm", solid.broken.round ? "round" : "chamfers",
                                  solid.broken.edges, solid.broken.size, t));
@@ -153,6 +154,89 @@ TEST(BrokenEdges, OfSomeBordersDoNotMoveThemThroughBends)
                         developed_area(solid),
                     1, 1e-5);
     }
+}
+
+TEST(BrokenEdges, MayBeChamferedAtOneSideAndRoundedAtTheOther)
+{
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        shapes::SeededRandom random(seed + 21000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(0.5, 5);
+        solid.leg = {t * random.between(15, 40)};
+        if (random.coin()) {
+            solid.bend = {{t * random.between(0.7, 3), random.between(0.4, 1.6) * (random.coin() ? 1 : -1)}};
+            solid.leg.push_back(t * random.between(15, 40));
+        }
+        solid.width = t * random.between(15, 40);
+        solid.pose = seed;
+        const bool left = random.coin();
+        const int edges = random.whole(0, 1) * 2; // or all
+        solid.broken = {t * random.between(0.05, 0.4), false, left, false, edges};
+        solid.broken_too = {t * random.between(0.05, 0.4), true, !left, false, edges};
+        for (const CadForm form : {CadForm::step, CadForm::iges, CadForm::stl}) {
+            if (form == CadForm::stl && !solid.bend.empty()) // facets of a rounding beside a bend are a doubt
+                continue;
+            SCOPED_TRACE(fmt::format("{}: chamfer {:.3g}, rounding {:.3g}, t {:.3g}, {} edges{}", seed,
+                                     solid.broken.size, solid.broken_too.size, t, edges, extension(form)));
+            const auto file = folder / (std::string("part") + extension(form));
+            shapes::write_bent_solid(file, solid, form);
+            const Session session = solved_part(file);
+            ASSERT_TRUE(session.part->solid);
+            for (const std::string& doubt : session.part->doubts)
+                EXPECT_THAT(doubt, testing::HasSubstr("more like a block"));
+            expect_developed_size(session, solid, size_within(form));
+            EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle) /
+                            developed_area(solid),
+                        1, size_within(form) / 10);
+        }
+    }
+}
+
+TEST(BrokenEdges, GoAroundRoundCorners)
+{
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        shapes::SeededRandom random(seed + 23000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(0.5, 4);
+        solid.leg = {t * random.between(15, 60)};
+        if (random.whole(0, 3) > 0) {
+            solid.bend = {{t * random.between(0.7, 3), random.between(0.4, 1.6) * (random.coin() ? 1 : -1)}};
+            solid.leg.push_back(t * random.between(15, 60));
+        }
+        solid.width = t * random.between(20, 80);
+        solid.corner = random.between(0.1, 0.8) * std::min({solid.leg.front(), solid.leg.back(), solid.width / 2});
+        solid.pose = seed;
+        solid.broken = {t * random.between(0.05, 0.3), random.coin(), random.coin(), random.coin()};
+        SCOPED_TRACE(fmt::format("{}: corners {:.3g}, t {:.3g}, {} {:.3g} {}", seed, solid.corner, t,
+                                 solid.broken.round ? "round" : "chamfer", solid.broken.size,
+                                 solid.broken.both ? "both" : "one"));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        for (const std::string& doubt : session.part->doubts)
+            EXPECT_THAT(doubt, testing::HasSubstr("more like a block"));
+        expect_developed_size(session, solid, size_within(CadForm::step));
+        // 120 chords of 3 degrees take 0.0015 of the radius squared
+        const double r2 = solid.corner * solid.corner, made = developed_area(solid) - 4 * r2 + round_area(solid.corner);
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle), made - 0.0007 * r2,
+                    0.001 * r2 + 1e-5 * made);
+    }
+}
+
+TEST(BrokenEdges, OfWhatIsNoSheetLeaveAHollowBodyWithADoubt)
+{
+    const ScratchFolder folder;
+    BentSolid solid; // half as thick over a fifth of it, and so thick that it may be a box
+    solid.thickness = 8;
+    solid.leg = {50};
+    solid.width = 40;
+    solid.broken.size = 1;
+    solid.rebate = {{4, 8, true, false}};
+    shapes::write_bent_solid(folder / "part.stl", solid, CadForm::stl);
+    const PartFile part = read_part(folder / "part.stl");
+    EXPECT_FALSE(part.solid);
+    EXPECT_THAT(part.doubts, testing::Contains(testing::HasSubstr("It is taken as a hollow body")));
 }
 
 TEST(BrokenEdges, OfOneSideDoNotMoveWhatIsBesideThem)

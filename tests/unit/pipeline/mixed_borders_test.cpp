@@ -110,4 +110,71 @@ TEST(MixedBorders, AreThoseOfTheSolidSeenSquareToTheSheetOrADoubt)
     EXPECT_GE(unsaid, family * 5 / 6); // without the projection 26
 }
 
+TEST(MixedBorders, MayBeSteppedAtBothSidesThroughBends)
+{
+    const ScratchFolder folder;
+    constexpr int family = 40;
+    int unsaid = 0;
+    for (std::uint64_t seed = 1; seed <= family; ++seed) {
+        shapes::SeededRandom random(seed + 27000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(1, 5);
+        solid.leg = {t * random.between(10, 20), t * random.between(10, 20)};
+        solid.bend = {{t * random.between(0.7, 3), random.between(0.5, 1.6) * (random.coin() ? 1 : -1)}};
+        solid.width = t * random.between(20, 40);
+        solid.pose = seed;
+        const int sides = random.whole(0, 2); // left, right, both
+        for (const bool left : {true, false})
+            if (sides == 2 || left == (sides == 0))
+                // marks of a fifth of the thickness are the deepest that are passed over
+                solid.rebate.push_back(
+                    {t * (random.coin() ? 0.2 : random.between(0.05, 0.19)), t * random.between(0.7, 3), left, false});
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, {} steps, the first {:.3g} x {:.3g}", seed, t, solid.rebate.size(),
+                                 solid.rebate[0].depth, solid.rebate[0].breadth));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        ASSERT_TRUE(session.part->solid);
+        if (!session.part->doubts.empty() || !std::ranges::all_of(session.bends->bends, &SheetBend::laid))
+            continue; // told: a floor may have other chords than its skin
+        ++unsaid;
+        expect_developed_size(session, solid, size_within(CadForm::step));
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle) /
+                        developed_area(solid),
+                    1, 1e-5);
+    }
+    EXPECT_GE(unsaid, family - 1);
+}
+
+TEST(MixedBorders, MayHaveCountersinksOpenToAStep)
+{
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        shapes::SeededRandom random(seed + 29000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(2, 8);
+        solid.leg = {t * random.between(12, 20)};
+        solid.width = t * random.between(8, 12);
+        solid.pose = seed;
+        shapes::Sink sink;
+        sink.left = random.coin();
+        sink.hole = t * random.between(0.4, 0.8);
+        sink.depth = t * random.between(0.4, 0.8);
+        sink.wide = sink.hole + sink.depth;
+        sink.centre = {solid.leg[0] / 2, random.between(sink.hole + 0.15 * t, sink.wide)};
+        solid.sink = {sink};
+        solid.rebate = {{t * random.between(0.05, 0.2), t * random.between(0.1, 0.5), sink.left, false}};
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, hole {:.3g}, {:.3g} wide at {:.3g}, step {:.3g} x {:.3g}", seed, t,
+                                 sink.hole, sink.wide, sink.centre.y(), solid.rebate[0].depth,
+                                 solid.rebate[0].breadth));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        ASSERT_TRUE(session.part->solid);
+        if (!session.part->doubts.empty())
+            continue;
+        expect_developed_size(session, solid, size_within(CadForm::step));
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle),
+                    developed_area(solid) - round_area(sink.hole), 1e-3 * round_area(sink.hole));
+    }
+}
+
 } // namespace spia
