@@ -141,8 +141,10 @@ TEST(BrokenEdges, OfSomeBordersDoNotMoveThemThroughBends)
         solid.width = t * random.between(10, 20); // some are told to be more like blocks
         solid.pose = seed;
         // what a chamfer leaves of the wall crosses the middle of the sheet, or ends before it
-        const double share = random.coin() ? random.between(0.1, 0.45) : random.between(0.55, 0.8);
+        const double share = random.coin() ? random.between(0.1, 0.45) : random.between(0.52, 0.8);
         solid.broken = {t * share, share < 0.3 && random.coin(), random.coin(), share < 0.3, random.whole(2, 14)};
+        if (share > 0.5 && random.coin())
+            solid.broken_too = {t * random.between(0.05, 0.95 - share), false, !solid.broken.left};
         SCOPED_TRACE(fmt::format("{} of {} edges, {:.3g} of {:.3g} mm", solid.broken.round ? "round" : "chamfers",
                                  solid.broken.edges, solid.broken.size, t));
         shapes::write_bent_solid(folder / "part.step", solid);

@@ -145,6 +145,36 @@ TEST(MixedBorders, MayBeSteppedAtBothSidesThroughBends)
     EXPECT_GE(unsaid, family - 1);
 }
 
+TEST(MixedBorders, OfMeshesMayBeSteppedAndRounded)
+{
+    const ScratchFolder folder;
+    constexpr int family = 20;
+    int unsaid = 0;
+    for (std::uint64_t seed = 1; seed <= family; ++seed) {
+        shapes::SeededRandom random(seed + 31000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(1, 5);
+        solid.leg = {t * random.between(15, 40)};
+        solid.width = t * random.between(15, 40);
+        solid.pose = seed;
+        solid.broken = {t * random.between(0.1, 0.3), true, random.coin()};
+        solid.rebate = {{t * random.between(0.05, 0.19), t * random.between(1, 4), random.coin(), random.coin()}};
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, rounding {:.3g}, step {:.3g} x {:.3g}", seed, t, solid.broken.size,
+                                 solid.rebate[0].depth, solid.rebate[0].breadth));
+        shapes::write_bent_solid(folder / "part.stl", solid, CadForm::stl);
+        const Session session = solved_part(folder / "part.stl");
+        ASSERT_TRUE(session.part->solid);
+        if (!session.part->doubts.empty()) // the chords of a rounding may be a bend beside a step
+            continue;
+        ++unsaid;
+        expect_developed_size(session, solid, size_within(CadForm::stl));
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle) /
+                        developed_area(solid),
+                    1, 1e-4);
+    }
+    EXPECT_GE(unsaid, family * 4 / 5);
+}
+
 TEST(MixedBorders, MayHaveCountersinksOpenToAStep)
 {
     const ScratchFolder folder;
