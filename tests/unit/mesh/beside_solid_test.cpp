@@ -8,6 +8,7 @@
 #include <random>
 
 #include "engine/mesh/solid/beside_solid.h"
+#include "engine/mesh/solid/onto_projection.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"
@@ -121,6 +122,49 @@ TEST(BesideSolid, FindsACornerThatIsBesideItsPlaceAlongAWall)
         const auto off = beside_solid(middle, shapes::thickened(outer, inwards), thickness, 0.02 * thickness);
         ASSERT_EQ(off.size(), 1u);
         EXPECT_NEAR(off[0].beside, 0.125 * thickness, 0.01 * thickness);
+    }
+}
+
+/// A plate whose middle surface has a corner so little beside its place that the middles of its
+/// edges are not.
+struct SlantedPlate {
+    TriMesh solid, middle;
+    static constexpr double off = 0.035; // of the thickness
+};
+
+SlantedPlate slanted_plate(double thickness)
+{
+    const TriMesh outer = shapes::rectangle(100, 60, 1, 1);
+    Eigen::Matrix3Xd inwards = Eigen::Matrix3Xd::Zero(3, outer.vertices());
+    inwards.row(2).setConstant(-thickness);
+    SlantedPlate plate{shapes::thickened(outer, inwards), outer};
+    plate.middle.position += inwards / 2;
+    Eigen::Index corner;
+    plate.middle.position.colwise().sum().maxCoeff(&corner);
+    plate.middle.position(0, corner) -= SlantedPlate::off * thickness;
+    return plate;
+}
+
+TEST(BesideSolid, FindsALongEdgeThatIsSlanted)
+{
+    for (const double thickness : {0.8, 4.}) {
+        const SlantedPlate plate = slanted_plate(thickness);
+        const auto off = beside_solid(plate.middle, plate.solid, thickness, 0.02 * thickness);
+        ASSERT_EQ(off.size(), 1u);
+        EXPECT_NEAR(off[0].beside, 0.95 * SlantedPlate::off * thickness, 1e-3 * thickness);
+    }
+}
+
+TEST(OntoProjection, GoesOnPastACornerThatIsBesideItsPlace)
+{
+    // The edge along the slanted one's end is on the outline and has to move with its corner.
+    for (const double thickness : {0.8, 4.}) {
+        SlantedPlate plate = slanted_plate(thickness);
+        SkinMesh skin{plate.middle, {0, 1, 2, 3}, SheetSide::outer, {0, 1}, {}, {}};
+        onto_projection(skin, {}, {plate.solid, {}, thickness, 1, 0}, 0.02 * thickness);
+        const Eigen::Vector3d size = skin.mesh.position.rowwise().maxCoeff() - skin.mesh.position.rowwise().minCoeff();
+        EXPECT_NEAR(size.x(), 100, 1e-9);
+        EXPECT_NEAR(area_vectors(skin.mesh).colwise().norm().sum(), 6000, 1e-6);
     }
 }
 
