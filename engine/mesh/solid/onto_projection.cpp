@@ -110,12 +110,11 @@ public:
         return alone ? std::optional(rings) : std::nullopt;
     }
 
-    bool of_border(int v, int w) const { return edge_beside_.contains({v, w}); }
     /// Whether an edge of the outline is of the border and one of its ends or its middle is beside
     /// that of the solid.
     bool moves(int v, int w) const
     {
-        return of_border(v, w) && (beside_[size_t(v)] > 0 || beside_[size_t(w)] > 0 || at(v, w) > 0);
+        return edge_beside_.contains({v, w}) && (beside_[size_t(v)] > 0 || beside_[size_t(w)] > 0 || at(v, w) > 0);
     }
     bool beside_at(int vertex) const { return beside_[size_t(vertex)] > 0; }
 
@@ -296,36 +295,10 @@ private:
     const SlabProjection& projection_;
     double reach_; ///< mm, what is on the projection's outline
 
-    /// Per edge, whether it moves: it is beside the border, or ends where one that is does, at a corner
-    /// that is not on the outline either.
-    std::vector<char> moving(const Ring& ring) const
-    {
-        const size_t n = ring.size();
-        std::vector<char> result;
-        for (size_t i = 0; i < n; ++i)
-            result.push_back(flats_.moves(ring[i].vertex, ring[(i + 1) % n].vertex));
-        const auto hands_on = [&](size_t from, size_t to, size_t corner) {
-            if (!result[from] || result[to] || !flats_.of_border(ring[to].vertex, ring[(to + 1) % n].vertex) ||
-                projection_.nearest(ring[corner].at).distance <= reach_)
-                return false;
-            result[to] = 1;
-            return true;
-        };
-        for (bool any = true; any;) {
-            any = false;
-            for (size_t i = 0; i < n; ++i) {
-                const size_t next = (i + 1) % n;
-                any |= hands_on(i, next, next) || hands_on(next, i, next);
-            }
-        }
-        return result;
-    }
-
     std::optional<Ring> moved(const Ring& ring) const
     {
         const size_t n = ring.size();
-        const std::vector<char> edge = moving(ring);
-        const auto moves = [&](size_t i) { return edge[i % n] != 0; };
+        const auto moves = [&](size_t i) { return flats_.moves(ring[i % n].vertex, ring[(i + 1) % n].vertex); };
         size_t start = 0;
         while (start < n && (moves(start) || !moves(start + n - 1)))
             ++start; // the first edge that stays after one that moves

@@ -203,19 +203,33 @@ std::vector<double> outlines(const SurfacePieces& pieces)
     return result;
 }
 
-/// Takes chamfers of the border off pieces that may be of marks: else one beside a step would be a
-/// wall of that.
-void leave_chamfers(const SurfacePieces& pieces, const std::vector<PieceSide>& side, const std::vector<char>& main,
-                    PieceSide skin, std::vector<char>& level)
+/// Takes chamfers and roundings of the border off pieces that may be of marks: else one beside a step
+/// would be a wall of that. Of a rounding in a mesh each chord goes over into the next one.
+void leave_borders(const SurfacePieces& pieces, const std::vector<PieceSide>& side, const std::vector<char>& main,
+                   PieceSide skin, std::vector<char>& level)
 {
     const std::vector<double> whole = outlines(pieces);
-    std::vector<double> along_rim(level.size(), 0);
+    std::vector<double> smooth(level.size(), 0);
     for (const PieceContact& c : pieces.contact)
-        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
-            if (!level[size_t(q)] && !(main[size_t(q)] && side[size_t(q)] == skin))
-                along_rim[size_t(p)] += c.length();
-    for (size_t p = 0; p < level.size(); ++p)
-        level[p] &= side[p] == skin || along_rim[p] < most_rim * whole[p];
+        for (const int p : {c.a, c.b})
+            smooth[size_t(p)] += c.smooth;
+    constexpr double goes_over = 0.25; // of what goes on smoothly; along a straight strip a half
+    for (bool first = true, more = true; more; first = false) {
+        more = false;
+        std::vector<double> along_rim(level.size(), 0), into_rim = along_rim;
+        for (const PieceContact& c : pieces.contact)
+            for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+                if (!level[size_t(q)] && !(main[size_t(q)] && side[size_t(q)] == skin)) {
+                    along_rim[size_t(p)] += c.length();
+                    into_rim[size_t(p)] += c.smooth;
+                }
+        for (size_t p = 0; p < level.size(); ++p)
+            if (level[p] && side[p] != skin &&
+                ((first && along_rim[p] >= most_rim * whole[p]) || into_rim[p] > goes_over * smooth[p])) {
+                level[p] = 0;
+                more = true;
+            }
+    }
 }
 
 void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const SurfacePieces& pieces,
@@ -242,14 +256,11 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
             level[piece(f)] = off[piece(f)] <= deepest_over_chords * thickness;
         }
 
-    leave_chamfers(pieces, side, main, skin, level);
+    leave_borders(pieces, side, main, skin, level);
 
-    constexpr double beside = 0.02; // of an outline: the end of a step's wall at the rounding of a border
-    const std::vector<double> around = outlines(pieces);
     DisjointSets together(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
-        if (level[size_t(c.a)] && level[size_t(c.b)] &&
-            c.length() > beside * std::min(around[size_t(c.a)], around[size_t(c.b)]))
+        if (level[size_t(c.a)] && level[size_t(c.b)])
             together.join(c.a, c.b);
     struct Group {
         double along_skin = 0, along_rim = 0, smoothly = 0; ///< mm; the last one of the first

@@ -155,9 +155,8 @@ TEST(BesideSolid, FindsALongEdgeThatIsSlanted)
     }
 }
 
-TEST(OntoProjection, GoesOnPastACornerThatIsBesideItsPlace)
+TEST(OntoProjection, PutsACornerBackThatIsBesideItsPlace)
 {
-    // The edge along the slanted one's end is on the outline and has to move with its corner.
     for (const double thickness : {0.8, 4.}) {
         SlantedPlate plate = slanted_plate(thickness);
         SkinMesh skin{plate.middle, {0, 1, 2, 3}, SheetSide::outer, {0, 1}, {}, {}};

@@ -157,10 +157,11 @@ TEST(MixedBorders, OfMeshesMayBeSteppedAndRounded)
         solid.leg = {t * random.between(15, 40)};
         solid.width = t * random.between(15, 40);
         solid.pose = seed;
-        solid.broken = {t * random.between(0.1, 0.3), true, random.coin()};
+        solid.broken = {t * random.between(0.1, 0.3), random.coin(), random.coin()};
         solid.rebate = {{t * random.between(0.05, 0.19), t * random.between(1, 4), random.coin(), random.coin()}};
-        SCOPED_TRACE(fmt::format("{}: t {:.3g}, rounding {:.3g}, step {:.3g} x {:.3g}", seed, t, solid.broken.size,
-                                 solid.rebate[0].depth, solid.rebate[0].breadth));
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, {} {:.3g}, step {:.3g} x {:.3g}", seed, t,
+                                 solid.broken.round ? "rounding" : "chamfer", solid.broken.size, solid.rebate[0].depth,
+                                 solid.rebate[0].breadth));
         shapes::write_bent_solid(folder / "part.stl", solid, CadForm::stl);
         const Session session = solved_part(folder / "part.stl");
         ASSERT_TRUE(session.part->solid);
