@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -13,35 +12,13 @@
 
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/face_neighbours.h"
+#include "engine/mesh/solid/border_walls.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
 
 using Kind = StatedSurface::Kind;
-
-/// A plane or cylinder at a distance from a stated one.
-struct Level {
-    StatedSurface of;
-    double at = 0; ///< mm along the plane's normal, or the radius
-
-    /// mm beyond it
-    double value(const Eigen::Vector3d& p) const
-    {
-        return (of.kind == Kind::plane ? (p - of.point).dot(of.direction) : off_axis(p).norm()) - at;
-    }
-    Eigen::Vector3d normal(const Eigen::Vector3d& p) const
-    {
-        return of.kind == Kind::plane ? of.direction : off_axis(p).normalized();
-    }
-
-private:
-    Eigen::Vector3d off_axis(const Eigen::Vector3d& p) const
-    {
-        const Eigen::Vector3d from = p - of.point;
-        return from - from.dot(of.direction) * of.direction;
-    }
-};
 
 /// The place of both that is next to a given one, by the shortest steps; none where they meet at
 /// less than 12 degrees, or farther away.
@@ -93,10 +70,9 @@ class Border {
 public:
     Border(SkinMesh& middle, TriMesh& outer, const TriMesh& solid, const ThinSolid& sheet,
            const std::vector<StatedSurface>& surface, const std::vector<int>& done)
-        : middle_(middle), outer_(outer), solid_(solid), half_(sheet.thickness / 2), surface_(surface),
-          neighbour_(face_neighbours(outer.triangles(), edge_uses(outer.triangle)))
+        : middle_(middle), outer_(outer), half_(sheet.thickness / 2), surface_(surface),
+          walls_(solid, sheet, surface, done), neighbour_(face_neighbours(outer.triangles(), edge_uses(outer.triangle)))
     {
-        find_border(sheet, done);
         facing_ = area_vectors(outer);
     }
 
@@ -125,13 +101,13 @@ public:
             if (!level)
                 continue;
             const Eigen::Vector3d up = level->second.normal(middle_.mesh.position.col(v));
-            const auto cylinder = std::ranges::find_if(here.rim, [&](int rim) { return crosses(rim, up); });
+            const auto cylinder = std::ranges::find_if(here.rim, [&](int rim) { return walls_.crosses(rim, up); });
             if (cylinder == here.rim.end())
                 continue;
             auto place = middle_.mesh.position.col(v);
             const auto exact = onto_both(rim_level(*cylinder), level->second, start(v, *cylinder, *level), half_);
             if (!exact || !std::ranges::all_of(here.rim, [&](int rim) {
-                    return tangent(*cylinder, rim, *exact, level->second.normal(*exact));
+                    return walls_.tangent(*cylinder, rim, *exact, level->second.normal(*exact));
                 }))
                 continue;
             const Eigen::Vector3d was = place;
@@ -174,70 +150,16 @@ public:
     }
 
 private:
-    static constexpr double on_it = 1e-3; // of the thickness: gaps between CAD faces
     SkinMesh& middle_;
     TriMesh& outer_;
-    const TriMesh& solid_;
     double half_;
     const std::vector<StatedSurface>& surface_;
-    std::map<std::pair<int, int>, int> rim_; ///< per edge of the outer skin, vertices of the solid:
-                                             ///< the triangle across
+    BorderWalls walls_;
     Eigen::Matrix3Xi neighbour_;
     Eigen::Matrix3Xd facing_;
     std::vector<Eigen::Vector3d> new_outer_, new_middle_;
     std::vector<int> new_source_;
 
-    void find_border(const ThinSolid& sheet, const std::vector<int>& done)
-    {
-        const std::vector<EdgeUse> uses = edge_uses(solid_.triangle);
-        for_each_edge(uses, [&](size_t begin, size_t end) {
-            if (end != begin + 2)
-                return;
-            int one = uses[begin].face, other = uses[begin + 1].face;
-            if (sheet.side[size_t(one)] != SheetSide::outer)
-                std::swap(one, other);
-            if (sheet.side[size_t(one)] == SheetSide::outer && sheet.side[size_t(other)] == SheetSide::rim &&
-                !std::ranges::binary_search(done, other))
-                rim_[{uses[begin].low, uses[begin].high}] = other;
-        });
-        const Eigen::Matrix3Xi next = face_neighbours(solid_.triangles(), uses);
-        for (auto& [edge, rim] : rim_)
-            if (surface_[size_t(rim)].kind == Kind::other)
-                rim = wall_beyond(edge, rim, sheet, next).value_or(rim);
-        std::erase_if(rim_, [&](const auto& each) { return std::ranges::binary_search(done, each.second); });
-    }
-    /// A triangle of the cylinder that a chamfer or a rounding of its edge goes around, the nearest over
-    /// such faces.
-    /// @param across  the triangle of the chamfer
-    std::optional<int> wall_beyond(const std::pair<int, int>& edge, int across, const ThinSolid& sheet,
-                                   const Eigen::Matrix3Xi& next) const
-    {
-        constexpr size_t most = 1000; // triangles, of a rounding in many rows
-        std::vector<int> reached{across};
-        for (size_t i = 0; i < reached.size() && i < most; ++i)
-            for (int k = 0; k < 3; ++k) {
-                const int f = next(k, reached[i]);
-                if (f < 0 || sheet.side[size_t(f)] != SheetSide::rim || std::ranges::find(reached, f) != reached.end())
-                    continue;
-                const StatedSurface& s = surface_[size_t(f)];
-                if (s.kind == Kind::other)
-                    reached.push_back(f);
-                else if (s.kind == Kind::cylinder &&
-                         around(s, solid_.position.col(edge.first), solid_.position.col(edge.second)))
-                    return f;
-            }
-        return std::nullopt;
-    }
-    /// The cylinder with the axis of a stated one that a chord goes around, but for rounding.
-    std::optional<Level> around(const StatedSurface& cylinder, const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
-    {
-        constexpr double along = 0.9; // cosine of 26 degrees: the rounding of a straight edge
-        const Level axis{cylinder, 0};
-        if (std::abs((b - a).dot(cylinder.direction)) > along * (b - a).norm())
-            return std::nullopt;
-        const double at = axis.value(a);
-        return std::abs(axis.value(b) - at) < 2 * on_it * half_ ? std::optional(Level{cylinder, at}) : std::nullopt;
-    }
     const StatedSurface& under(int f) const { return surface_[size_t(middle_.source_face[size_t(f)])]; }
     bool same(int f, int g) const
     {
@@ -253,8 +175,7 @@ private:
             return -1;
         const int a = middle_.source_vertex[size_t(outer_.triangle(k, f))],
                   b = middle_.source_vertex[size_t(outer_.triangle((k + 1) % 3, f))];
-        const auto found = rim_.find({std::min(a, b), std::max(a, b)});
-        return found == rim_.end() ? -1 : found->second;
+        return walls_.beyond(a, b);
     }
     Level rim_level(int rim) const { return {surface_[size_t(rim)], surface_[size_t(rim)].radius}; }
 
@@ -263,31 +184,9 @@ private:
     Eigen::Vector3d start(int v, int wall, const std::pair<Level, Level>& level) const
     {
         const Eigen::Vector3d at_skin = outer_.position.col(v), here = middle_.mesh.position.col(v);
-        const bool chamfered = std::abs(rim_level(wall).value(at_skin)) > 2 * on_it * half_;
+        const bool chamfered = std::abs(rim_level(wall).value(at_skin)) > walls_.gap();
         return chamfered ? at_skin - level.second.value(at_skin) * level.second.normal(at_skin) : here;
     }
-    /// Whether a triangle is of a cylinder across the sheet, with the normal `up`: no rounding along it.
-    bool crosses(int rim, const Eigen::Vector3d& up) const
-    {
-        constexpr double most_oblique = 0.5; // cosine of 60 degrees
-        const StatedSurface& s = surface_[size_t(rim)];
-        return s.kind == Kind::cylinder && std::abs(s.direction.dot(up)) > most_oblique;
-    }
-    /// Whether the wall of a triangle, or what is beyond its chamfer, goes on from a cylinder without a
-    /// corner at a place of the middle surface with the normal `up`.
-    bool tangent(int cylinder, int rim, const Eigen::Vector3d& place, const Eigen::Vector3d& up) const
-    {
-        constexpr double smooth = 1e-3; // radians; gaps between CAD faces
-        const auto along_sheet = [&](int wall) {
-            const StatedSurface& s = surface_[size_t(wall)];
-            const Eigen::Matrix3d c = corners(solid_, wall);
-            const Eigen::Vector3d n =
-                s.kind == Kind::cylinder ? Level{s, 0}.normal(place) : (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
-            return (n - n.dot(up) * up).normalized();
-        };
-        return along_sheet(cylinder).cross(along_sheet(rim)).norm() < smooth;
-    }
-
     /// Of the outer skin and of the middle surface at a vertex; none where it is not on what CAD
     /// states.
     std::optional<std::pair<Level, Level>> levels(int f, int v) const
@@ -296,7 +195,7 @@ private:
         if (s.kind == Kind::other)
             return std::nullopt;
         Level outer{s, s.kind == Kind::plane ? 0 : s.radius};
-        if (std::abs(outer.value(outer_.position.col(v))) > 2 * on_it * half_)
+        if (std::abs(outer.value(outer_.position.col(v))) > walls_.gap())
             return std::nullopt;
         const double side = outer.value(middle_.mesh.position.col(v)) > 0 ? 1 : -1;
         Level middle{s, outer.at + side * half_};
@@ -352,7 +251,7 @@ private:
             return {};
         const auto &outer = outer_.position, &middle = middle_.mesh.position;
         const Level cut = rim_level(rim);
-        const auto cut_outer = around(cut.of, outer.col(a), outer.col(b)); // wider where it is chamfered
+        const auto cut_outer = walls_.around(cut.of, outer.col(a), outer.col(b)); // wider where it is chamfered
         if (!cut_outer)
             return {};
         constexpr double finest = 3 * std::numbers::pi / 180, most = std::numbers::pi / 2;
