@@ -13,7 +13,8 @@ ClosedSurface sheet_or_hollow(const ThinSolid& sheet)
     constexpr double rounding = 1e-6;
     const double thick = proportion(sheet) * (1 - rounding);
     constexpr double mostly = 0.5, thin_anyway = 0.08;
-    if (sheet.rounded > mostly && thick > thin_anyway)
+    const bool plain = !sheet.bent && sheet.outlines <= 1; // what bends at one thickness, or has holes, is no box
+    if (plain && sheet.rounded > mostly && thick > thin_anyway)
         return ClosedSurface::perhaps_hollow;
     struct Limits {
         double sure, likely;

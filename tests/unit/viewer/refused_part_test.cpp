@@ -254,6 +254,19 @@ TEST_F(RefusedPart, OpenedBesideAPartIsShownOnRequestAndThePartComesBack)
     EXPECT_TRUE(state.messages.back().gone) << "what was said of it";
 }
 
+TEST_F(RefusedPart, StaysFittedWhereTheViewsBesideItAreFittedAnew)
+{
+    for (const View view : {View::part, View::blank, View::quads, View::surface})
+        model.resized(view, {600, 400});
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    apply(OpenPart{two_pieces(), ""});
+    apply(ShowRefused{});
+    const Camera fitted = state.view.camera[size_t(View::part)], other = state.view.camera[size_t(View::quads)];
+    model.resized(View::quads, {300, 400}); // as where a legend comes or goes
+    EXPECT_NE(state.view.camera[size_t(View::quads)], other);
+    EXPECT_EQ(state.view.camera[size_t(View::part)], fitted);
+}
+
 TEST_F(RefusedPart, BesideAPartIsTakenWithoutItsSmallerPieces)
 {
     apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});

@@ -168,13 +168,15 @@ void ViewFitter::fit_space(ViewerState& state, const PartFile& part, std::option
     // one do not count.
     const Camera& leader = state.view.camera[size_t(only.value_or(View::part))];
     const std::optional<View> alone = state.view.maximised;
+    const auto shows_it = [&](View view) { return view != View::part || !shows_refused(state); };
     std::optional<Camera> widest;
     for (const View view : in_space)
-        if (!alone || *alone == view || *alone == View::blank)
+        if (shows_it(view) && (!alone || *alone == view || *alone == View::blank))
             if (const Camera camera = fitted(view, leader); !widest || camera.height > widest->height)
                 widest = camera;
     for (const View view : in_space)
-        set(view, *widest);
+        if (widest && shows_it(view))
+            set(view, *widest);
 }
 
 void ViewFitter::resized(ViewerState& state, View view, glm::dvec2 size, double scale, const Covered& covered)

@@ -347,6 +347,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
     text_input("##path", path_text_);
     if (std::exchange(path_active_, ImGui::IsItemActive()) && enter) {
         follow_path_text();
+        appearing_name_ = true; // typing goes on there
     }
     if (makes_folders) {
         ImGui::SameLine();
@@ -401,6 +402,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
     if (stay && (button || taken_) && follow_path_text()) {
         taken_ &= folder_chosen; // Return and a double click enter a folder, the button takes it
         chosen = take();
+        appearing_name_ = !chosen; // in a folder, or after what was not found
     }
     if (chosen || !stay) {
         open_ = false;
