@@ -42,7 +42,7 @@ struct RefusedPart : testing::Test {
     /// Two rectangles that do not touch: half the triangles each.
     std::filesystem::path two_pieces()
     {
-        const auto file = folder / "two.obj";
+        auto file = folder / "two.obj";
         shapes::write_mesh(file, shapes::two_rectangles());
         return file;
     }
@@ -139,6 +139,7 @@ TEST_F(RefusedPart, ReadAgainWithItsFacesInAnotherOrderKeepsPicksWhereTheyAreInS
     const std::vector<int> clamp = {3, 7}, chosen = {12};
     const auto elsewhere = [&](const std::vector<int>& faces) {
         std::vector<int> result;
+        result.reserve(faces.size());
         for (const int f : faces)
             result.push_back(other.face[size_t(f)]);
         std::sort(result.begin(), result.end());
