@@ -28,7 +28,8 @@ std::vector<BesideSolid> beside_solid(const TriMesh& middle, const TriMesh& soli
 struct BesideLoop {
     std::vector<int> vertex;    ///< as boundary_loops() has them
     std::vector<double> beside; ///< mm, as BesideSolid has it; of each vertex, and then of the
-                                ///< middle of the edge from it to the next; 0: it is not
+                                ///< edge from it to the next: in its middle, else near an end;
+                                ///< 0: it is not
 };
 
 /// The same of every vertex and edge.

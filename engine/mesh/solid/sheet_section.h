@@ -39,7 +39,8 @@ public:
     /// @param end  mm outwards, where the solid ends
     bool halfway_along_a_wall(const BorderPlace& at, double end, double within) const;
 
-    /// Whether a wall square to the sheet is so near to a place, and faces outwards.
+    /// Whether a wall square to the sheet, within half the thickness of a place, faces outwards and lies
+    /// in a plane so near to it: that of a deep chamfer is above or below.
     bool square_wall(const BorderPlace& at, double within) const;
 
 private:

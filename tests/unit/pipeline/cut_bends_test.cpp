@@ -13,6 +13,7 @@
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"
+#include "tests/support/cad/random_bent_solid.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"

@@ -12,6 +12,7 @@
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/drawn_solid.h"
+#include "tests/support/cad/random_bent_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {

@@ -9,6 +9,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/bent_parts.h"
+#include "tests/support/cad/random_bent_solid.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/profile.h"
 #include "tests/unit/exchange/scratch_folder.h"

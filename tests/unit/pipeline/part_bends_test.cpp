@@ -21,6 +21,7 @@
 #include "engine/report/text/shown_lengths.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/cad/prism.h"
+#include "tests/support/cad/random_bent_solid.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"

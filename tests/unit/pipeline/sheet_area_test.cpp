@@ -5,6 +5,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/cad/exact_volume.h"
+#include "tests/support/cad/random_bent_solid.h"
 #include "tests/support/flat_area.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"

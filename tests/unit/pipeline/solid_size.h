@@ -4,6 +4,7 @@
 
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/bent_solid.h"
+#include "tests/support/flat_area.h"
 
 namespace spia {
 
@@ -25,5 +26,13 @@ inline double developed_area(const shapes::BentSolid& solid) { return solid.deve
 
 /// mm2, of a round hole.
 inline double round_area(double radius) { return std::numbers::pi * radius * radius; }
+
+/// The blank has that area but for what is cut out.
+/// @param cut, within  mm2
+inline void expect_developed_area(const Session& session, const shapes::BentSolid& solid, double cut, double within)
+{
+    EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle),
+                developed_area(solid) - cut, within);
+}
 
 } // namespace spia
