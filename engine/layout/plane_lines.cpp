@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/mesh/nearest_share.h"
 #include "engine/mesh/orient2d.h"
 
 namespace spia {
@@ -16,9 +17,8 @@ double turn_to(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 
 double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
-    const double length = (b - a).squaredNorm();
-    const double t = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0., 1.) : 0;
-    return (a + t * (b - a) - p).norm();
+    const Eigen::Vector2d way = b - a;
+    return (a + nearest_share(p, a, way) * way - p).norm();
 }
 
 bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,

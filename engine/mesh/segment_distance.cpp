@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/mesh/box_tree.h"
+#include "engine/mesh/nearest_share.h"
 
 namespace spia {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 double squared_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
     const Eigen::Vector2d along = b - a;
-    const double t = std::clamp((p - a).dot(along) / std::max(along.squaredNorm(), 1e-300), 0.0, 1.0);
+    const double t = nearest_share(p, a, along);
     return (p - a - t * along).squaredNorm();
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/doctor/split_polygon.h"
+#include "engine/mesh/nearest_share.h"
 
 namespace spia {
 namespace {
@@ -114,6 +115,7 @@ std::vector<int> corners_with(const PolygonSoup& soup, int polygon,
 bool can_be_split(const PolygonSoup& soup, const std::vector<int>& corners)
 {
     std::vector<Eigen::Vector3d> points;
+    points.reserve(corners.size());
     for (const int v : corners)
         points.push_back(soup.position[size_t(v)]);
     return !split_polygon(points).empty();
@@ -160,7 +162,7 @@ std::vector<EdgeVertex> edge_vertices(const PolygonSoup& soup, const std::vector
         visit_near(tree, point, within, [&](int i) {
             const Side& side = sides[size_t(tree.face[size_t(i)])];
             const Eigen::Vector3d a = tree.triangle[size_t(i)].col(0), along = tree.triangle[size_t(i)].col(1) - a;
-            const double t = std::clamp((point - a).dot(along) / along.squaredNorm(), 0., 1.);
+            const double t = nearest_share(point, a, along);
             const double gap = (point - a - t * along).norm(), length = along.norm();
             // Places as far away are taken in the order of polygons, whatever the tree's is.
             const auto key = [](double width, int p, int k) { return std::tuple(width, p, k); };

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "engine/mesh/nearest_share.h"
 #include "engine/mesh/solid/sheet_walls.h"
 
 namespace spia {
@@ -62,7 +63,7 @@ double distance_from(const Polygon& polygon, const Eigen::Vector3d& place)
     double least = std::numeric_limits<double>::infinity();
     for (size_t k = 0; k < polygon.point.size(); ++k) {
         const Eigen::Vector3d &a = polygon.point[k], way = polygon.point[(k + 1) % polygon.point.size()] - a;
-        const double along = std::clamp((place - a).dot(way) / way.squaredNorm(), 0., 1.);
+        const double along = nearest_share(place, a, way);
         least = std::min(least, (a + along * way - place).norm());
     }
     return least;

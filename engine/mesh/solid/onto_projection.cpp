@@ -12,6 +12,7 @@
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/flat/inside_polygon.h"
 #include "engine/mesh/mesh_polygon.h"
+#include "engine/mesh/nearest_share.h"
 #include "engine/mesh/solid/along_rulings.h"
 #include "engine/mesh/solid/beside_solid.h"
 #include "engine/mesh/solid/plane_regions.h"
@@ -384,7 +385,7 @@ private:
         double least = std::numeric_limits<double>::infinity();
         for (Eigen::Index i = 0; i < ring.cols(); ++i) {
             const Point a = ring.col(i), way = ring.col((i + 1) % ring.cols()) - a;
-            const double share = std::clamp((place - a).dot(way) / std::max(way.squaredNorm(), 1e-300), 0.0, 1.0);
+            const double share = nearest_share(place, a, way);
             least = std::min(least, (a + share * way - place).norm());
         }
         return least;

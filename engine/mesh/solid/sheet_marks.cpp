@@ -180,16 +180,6 @@ double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& s
     return most;
 }
 
-/// -1 if the triangles look inwards. @param normal  area vectors outwards
-double turned_outwards(const TriMesh& mesh, const Eigen::Matrix3Xd& normal)
-{
-    Eigen::Index largest = 0;
-    normal.colwise().squaredNorm().maxCoeff(&largest);
-    const auto t = mesh.triangle.col(largest);
-    const Eigen::Vector3d a = mesh.position.col(t[0]);
-    return (mesh.position.col(t[1]) - a).cross(mesh.position.col(t[2]) - a).dot(normal.col(largest)) < 0 ? -1 : 1;
-}
-
 /// Of a groove with two ends at the rim, the share of its outline there; a chamfer has about half.
 constexpr double most_rim = 0.25;
 
@@ -232,9 +222,9 @@ void leave_borders(const SurfacePieces& pieces, const std::vector<PieceSide>& si
     }
 }
 
-void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const SurfacePieces& pieces,
-                   const std::vector<char>& main, std::vector<PieceSide>& side, double thickness,
-                   std::vector<SheetMark>& marks)
+void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& normal, double flipped,
+                   const SurfacePieces& pieces, const std::vector<char>& main, std::vector<PieceSide>& side,
+                   double thickness, std::vector<SheetMark>& marks)
 {
     std::vector<char> level = candidates(pieces, side, main);
     if (std::none_of(level.begin(), level.end(), [](char c) { return c != 0; }) ||
@@ -243,8 +233,7 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
     const auto piece = [&](int f) { return size_t(pieces.piece[size_t(f)]); };
     HeightAboveSkin above_skin(
         mesh, [&](int f) { return main[piece(f)] && side[piece(f)] == skin; },
-        [&](int f) { return main[piece(f)] && side[piece(f)] == other_of(skin); }, thickness,
-        turned_outwards(mesh, normal));
+        [&](int f) { return main[piece(f)] && side[piece(f)] == other_of(skin); }, thickness, flipped);
     std::vector<double> off(size_t(pieces.count()), 0), raised(size_t(pieces.count()), 0);
     for (int f = 0; f < mesh.triangles(); ++f)
         for (int k = 0; k < 3 && level[piece(f)]; ++k) {
@@ -340,14 +329,14 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
 
 } // namespace
 
-std::vector<SheetMark> find_marks(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const SurfacePieces& pieces,
-                                  std::vector<PieceSide>& side, double thickness)
+std::vector<SheetMark> find_marks(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, double flipped,
+                                  const SurfacePieces& pieces, std::vector<PieceSide>& side, double thickness)
 {
     std::vector<SheetMark> marks;
     std::vector<char> main = main_parts(pieces, side);
     take_out_floors(mesh, normal, pieces, side, thickness, main);
     for (const PieceSide skin : {PieceSide::one, PieceSide::other})
-        find_marks_on(skin, mesh, normal, pieces, main, side, thickness, marks);
+        find_marks_on(skin, mesh, normal, flipped, pieces, main, side, thickness, marks);
     return marks;
 }
 

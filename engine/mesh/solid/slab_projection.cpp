@@ -9,6 +9,7 @@
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/flat/polygon_union.h"
+#include "engine/mesh/nearest_share.h"
 #include "engine/mesh/vectors.h"
 
 namespace spia {
@@ -173,7 +174,7 @@ AlongRing SlabProjection::nearest(const Point& place) const
     for (size_t r = 0; r < ring_.size(); ++r)
         for (Eigen::Index i = 0; i < ring_[r].cols(); ++i) {
             const Point a = ring_[r].col(i), way = ring_[r].col((i + 1) % ring_[r].cols()) - a;
-            const double share = std::clamp((place - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+            const double share = nearest_share(place, a, way);
             if (const double distance = (a + share * way - place).norm(); distance < best.distance)
                 best = {r, double(i) + share, distance};
         }

@@ -185,7 +185,7 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     require_two_sides(solid, thickness, area);
     std::vector<SheetMark> marks;
     if (solid.closed)
-        marks = find_marks(mesh, solid.normal, solid.pieces, solid.sides.side, thickness);
+        marks = find_marks(mesh, solid.normal, flipped, solid.pieces, solid.sides.side, thickness);
     require_connected(solid, thickness, area);
     if (solid.closed)
         require_no_thin_floor(solid, thickness, area, of_hole);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/mesh/closest_point.h"
+#include "engine/mesh/nearest_share.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/blank/flat_zones.h"
 
@@ -112,7 +113,7 @@ private:
         for (size_t k = 0; k < loop.size(); ++k) {
             const Eigen::Vector3d a = before_.position.col(loop[k]),
                                   way = before_.position.col(loop[(k + 1) % loop.size()]) - a;
-            const double share = std::clamp((place - a).dot(way) / way.squaredNorm(), 0., 1.);
+            const double share = nearest_share(place, a, way);
             if (const double off = (a + share * way - place).norm(); off < best.distance)
                 best = {double(k) + share, off};
         }
