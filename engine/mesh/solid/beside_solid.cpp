@@ -36,9 +36,10 @@ double beside(const BorderPlace& at, const SheetSection& section, double toleran
 {
     if (at.outward.isZero() || section.ends(at, tolerance))
         return 0;
-    constexpr double nearby = 8; // tolerances
-    constexpr int digits = 10;   // a thousandth of what is told
-    const double within = tolerance + section.facets(at, nearby * tolerance + 2 * deflection);
+    constexpr double nearby = 8;                                                 // tolerances
+    constexpr int digits = 10;                                                   // a thousandth of what is told
+    const double arcs = section.facets(at, nearby * tolerance + 2 * deflection), // or of a blunt corner
+        within = tolerance + (deflection > 0 ? std::min(arcs, deflection) : arcs);
     const double end = section.to_the_end(at, tolerance, most, digits);
     return section.ends(at, within) || section.halfway_along_a_wall(at, end, within) ? 0 : end;
 }

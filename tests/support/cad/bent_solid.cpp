@@ -320,9 +320,12 @@ TopoDS_Shape made(const BentSolid& solid)
     TopoDS_Shape shape = layer(solid, profile, solid.thickness / 2, -solid.thickness / 2);
     if (solid.corner > 0)
         shape = with_round_corners(shape, solid, profile);
-    for (const BrokenEdges& broken : {solid.broken, solid.broken_too})
-        if (broken.size > 0)
-            shape = with_broken_edges(shape, solid, profile, broken);
+    const auto break_edges = [&](bool cut) {
+        for (const BrokenEdges& broken : {solid.broken, solid.broken_too})
+            if (broken.size > 0 && broken.cut == cut)
+                shape = with_broken_edges(shape, solid, profile, broken);
+    };
+    break_edges(false);
     if (solid.hole) {
         const Profile::Piece& bend = pieces[1];
         const double s = (bend.from + bend.to) / 2, h = heading(bend, s);
@@ -341,6 +344,7 @@ TopoDS_Shape made(const BentSolid& solid)
         shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, rebate)).Shape();
     for (const Cutout& cutout : solid.cutout)
         shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cutout)).Shape();
+    break_edges(true);
     for (const Sink& sink : solid.sink)
         shape = sunk(shape, solid, profile, sink);
     for (const Emboss& emboss : solid.emboss)

@@ -85,6 +85,7 @@ struct BrokenEdges {
     bool left = true;   ///< at that side
     bool both = false;  ///< at the other side as well
     int edges = 0;      ///< only so many of them; 0: all
+    bool cut = false;   ///< after cutouts, and their edges as well
 };
 
 /// A level step along a border, all along it.

@@ -1,5 +1,6 @@
 // Sheet whose border is chamfered or rounded: what is laid flat ends at its walls.
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -220,6 +221,50 @@ TEST(BrokenEdges, GoAroundRoundCorners)
         EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle), made - 0.0007 * r2,
                     0.001 * r2 + 1e-5 * made);
     }
+}
+
+TEST(BrokenEdges, BesideATaperedFlangeDoNotMoveTheEndOfTheBend)
+{
+    const ScratchFolder folder;
+    constexpr int family = 60;
+    int told = 0;
+    for (std::uint64_t seed = 1; seed <= family; ++seed) {
+        shapes::SeededRandom random(seed + 33000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(0.6, 4);
+        solid.leg = {t * random.between(15, 25), t * random.between(15, 25)};
+        solid.bend = {{t * random.between(0.4, 2), random.between(0.5, 1.6) * (random.coin() ? 1 : -1)}};
+        solid.width = t * random.between(20, 30);
+        solid.pose = seed;
+        solid.broken = {t * random.between(0.25, 0.45), false, random.coin(), false, 0, seed % 4 < 2};
+        if (seed % 2 == 0)
+            solid.broken_too = {t * random.between(0.35, 0.45), true, !solid.broken.left, false, 0, solid.broken.cut};
+        // from a little after the bend on, 15 to 34 degrees: about as much as chords of coarse arcs turn by
+        const double from = t * random.between(1.1, 3), angle = random.between(0.26, 0.6), run = solid.leg[1] - from,
+                     side = 4 * solid.leg[1];
+        shapes::Cutout taper;
+        taper.leg = 1;
+        taper.length = taper.width = side;
+        taper.radius = 0;
+        taper.turn = angle;
+        const Eigen::Vector2d along(std::cos(angle), std::sin(angle)), below(std::sin(angle), -std::cos(angle));
+        taper.centre = Eigen::Vector2d(from, 0) + side / 2 * (0.9 * along + below);
+        solid.cutout = {taper};
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, chamfer {:.3g}, taper from {:.3g}, {:.3g} radians", seed, t,
+                                 solid.broken.size, from, angle));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        if (std::ranges::any_of(session.part->doubts, [](const std::string& doubt) {
+                return doubt.find("more like a block") == std::string::npos;
+            })) {
+            ++told;
+            continue;
+        }
+        expect_developed_size(session, solid, 0.01 * t); // what is nearer to its place is not told
+        const double made = developed_area(solid) - run * run * std::tan(angle) / 2;
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle) / made, 1, 1e-4);
+    }
+    EXPECT_LE(told, family / 20);
 }
 
 TEST(BrokenEdges, OfWhatIsNoSheetLeaveAHollowBodyWithADoubt)
