@@ -79,7 +79,10 @@ double SheetSection::facets(const BorderPlace& at, double within) const
 
 bool SheetSection::halfway_along_a_wall(const BorderPlace& at, double end, double within) const
 {
+    const SheetPlane sheet{at.place, at.normal, half_};
     return std::ranges::any_of(near(at.place, within), [&](int f) {
+        if (crosses_askew(f, sheet))
+            return true;
         const Eigen::Vector3d n = normal(f).normalized();
         const double along = n.dot(at.normal);
         const Eigen::Vector3d across = n - along * at.normal;
@@ -90,6 +93,18 @@ bool SheetSection::halfway_along_a_wall(const BorderPlace& at, double end, doubl
         return (std::abs(along) > square &&
                 matter(at.place - within * at.outward + most * to_skin * across.normalized(), half_ * at.normal)) ||
                (end > 0 && !matter(at.place + nearly * end * at.outward, inside * half_ * at.normal));
+    });
+}
+
+bool SheetSection::crosses_askew(int face, const SheetPlane& sheet) const
+{
+    if (askew_wall(solid_, neighbour_, face, sheet).crosses)
+        return true;
+    constexpr double smooth = 0.9; // cosine of 25 degrees
+    const Eigen::Vector3d n = normal(face).normalized();
+    return std::ranges::any_of(neighbour_.col(face), [&](int next) {
+        return next >= 0 && n.dot(normal(next).normalized()) > smooth && sheet.holds(solid_, next) &&
+               askew_wall(solid_, neighbour_, next, sheet).crosses;
     });
 }
 

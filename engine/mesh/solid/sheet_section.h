@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "engine/mesh/pick.h"
+#include "engine/mesh/solid/askew_wall.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -44,6 +45,9 @@ public:
     bool square_wall(const BorderPlace& at, double within) const;
 
 private:
+    /// Whether the wall of a triangle crosses the sheet askew, or where it is square to that the one that
+    /// it goes over into: of a hole drilled askew two strips are.
+    bool crosses_askew(int face, const SheetPlane& sheet) const;
     /// @param half  mm, of the line
     bool matter(const Eigen::Vector3d& place, const Eigen::Vector3d& half) const;
     Eigen::Matrix3d corners(int face) const;

@@ -10,6 +10,7 @@
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/flat/polygon_union.h"
 #include "engine/mesh/nearest_share.h"
+#include "engine/mesh/solid/askew_wall.h"
 #include "engine/mesh/vectors.h"
 
 namespace spia {
@@ -58,47 +59,22 @@ std::vector<Eigen::Matrix2Xd> around_upper(const TriMesh& solid, const std::vect
     return rows;
 }
 
-/// Those of walls that cross the whole slab askew. A wall leans alike all along: what turns away from
-/// it is that of a bend beside the flat.
-std::vector<SlabTriangle> askew(const TriMesh& solid, const std::vector<SlabTriangle>& slab, double half)
+/// Those of walls that cross the sheet askew.
+std::vector<SlabTriangle> askew(const TriMesh& solid, const std::vector<SlabTriangle>& slab, const SheetPlane& sheet)
 {
-    constexpr double square = 0.02, level = 0.985, smooth = 0.9; // sines of 1 and 80 degrees; cosine of 25
-    constexpr double alike = 0.02;                               // of the sine
-    std::vector<SlabTriangle> leaning;
-    for (const SlabTriangle& each : slab)
-        if (std::abs(each.lean) > square && std::abs(each.lean) < level)
-            leaning.push_back(each);
-    const std::vector<EdgeUse> uses =
-        edge_uses(int(leaning.size()), [&](int i, int k) { return solid.triangle(k, leaning[size_t(i)].face); });
-    const Eigen::Matrix3Xi neighbour = face_neighbours(int(leaning.size()), uses);
-    constexpr double nearly = 0.98;
+    const Eigen::Matrix3Xi neighbour = face_neighbours(solid.triangles(), edge_uses(solid.triangle));
+    std::vector<char> taken(size_t(solid.triangles()), 0), crosses = taken;
     std::vector<SlabTriangle> result;
-    std::vector<char> taken(leaning.size(), 0);
-    for (size_t seed = 0; seed < leaning.size(); ++seed) {
-        if (taken[seed])
-            continue;
-        taken[seed] = 1;
-        std::vector<int> wall{int(seed)};
-        double low = 0, high = 0; // mm
-        for (size_t i = 0; i < wall.size(); ++i) {
-            const SlabTriangle& one = leaning[size_t(wall[i])];
-            low = std::min(low, one.height.minCoeff());
-            high = std::max(high, one.height.maxCoeff());
-            for (int k = 0; k < 3; ++k) {
-                const int next = neighbour(k, wall[i]);
-                if (next < 0 || taken[size_t(next)])
-                    continue;
-                const SlabTriangle& other = leaning[size_t(next)];
-                if (one.outwards.dot(other.outwards) + one.lean * other.lean > smooth &&
-                    std::abs(other.lean - leaning[seed].lean) < alike) {
-                    taken[size_t(next)] = 1;
-                    wall.push_back(next);
-                }
+    for (const SlabTriangle& each : slab) {
+        if (!taken[size_t(each.face)]) {
+            const AskewWall wall = askew_wall(solid, neighbour, each.face, sheet);
+            for (const int f : wall.face) {
+                taken[size_t(f)] = 1;
+                crosses[size_t(f)] |= wall.crosses;
             }
         }
-        if (low < -nearly * half && high > nearly * half)
-            for (const int i : wall)
-                result.push_back(leaning[size_t(i)]);
+        if (crosses[size_t(each.face)])
+            result.push_back(each);
     }
     return result;
 }
@@ -138,18 +114,19 @@ SlabProjection::SlabProjection(const GivenSolid& given, const FlatChart& chart)
     const TriMesh& solid = given.mesh;
     const std::vector<StatedSurface>& surface = given.surface;
     const double half = given.thickness / 2;
-    constexpr double rounding = 1e-6, square = 0.01; // of the slab; sine of 0.6 degrees
+    constexpr double square = 0.01; // sine of 0.6 degrees
+    const SheetPlane sheet{chart.origin, chart.normal, half};
     std::vector<SlabTriangle> slab;
     std::vector<Eigen::Matrix2Xd> overhanging;
     for (int f = 0; f < solid.triangles(); ++f) {
+        if (!sheet.holds(solid, f))
+            continue;
         SlabTriangle here{f, Eigen::Matrix2Xd(2, 3), {}, {}, 0};
         for (int k = 0; k < 3; ++k) {
             const Eigen::Vector3d p = solid.position.col(solid.triangle(k, f));
             here.flat.col(k) = chart.flat(p);
             here.height[k] = chart.height(p);
         }
-        if (here.height.cwiseAbs().maxCoeff() > (1 + rounding) * half)
-            continue;
         const Eigen::Matrix3d corner = solid.position(Eigen::all, solid.triangle.col(f));
         const Eigen::Vector3d normal =
             given.flipped * (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).normalized();
@@ -163,7 +140,7 @@ SlabProjection::SlabProjection(const GivenSolid& given, const FlatChart& chart)
         for (int k = 0; k < 3; ++k)
             arc_[key(here.flat.col(k), here.flat.col((k + 1) % 3))] = {axis, surface[size_t(f)].radius};
     }
-    for (const SlabTriangle& each : askew(solid, slab, half))
+    for (const SlabTriangle& each : askew(solid, slab, sheet))
         add_overhanging(each, half, overhanging);
     ring_ = polygon_union(around_upper(solid, slab, chart, given.flipped), overhanging);
 }

@@ -81,4 +81,42 @@ TEST(ObliqueHoles, AreInTheBlankAsInTheMiddleOfTheSheet)
         }
 }
 
+TEST(ObliqueHoles, WithChamfersAreThoseInTheMiddleOfTheSheetAsWell)
+{
+    const ScratchFolder folder;
+    constexpr int family = 60;
+    int unsaid = 0;
+    for (std::uint64_t seed = 1; seed <= family; ++seed) {
+        shapes::SeededRandom random(seed + 41000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(2, 8);
+        solid.leg = {10 * t};
+        solid.width = 8 * t;
+        solid.pose = seed;
+        Cutout hole;
+        hole.centre = {5 * t, 4 * t};
+        hole.radius = t * random.between(0.5, 1.2);
+        hole.length = hole.width = 2 * hole.radius;
+        const double lean = random.between(0.15, 0.8), to = random.between(0, 6.3); // 9 to 39 degrees
+        hole.lean = {lean * std::cos(to), lean * std::sin(to)};
+        solid.cutout = {hole};
+        solid.broken = {t * random.between(0.05, 0.3), false, random.coin()};
+        solid.broken.cut = true;
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, hole {:.3g}, lean {:.3g}, chamfer {:.3g}", seed, t, hole.radius, lean,
+                                 solid.broken.size));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        ASSERT_TRUE(session.part->solid);
+        if (!session.part->doubts.empty()) // chords of the file, where both sides of the hole meet
+            continue;
+        ++unsaid;
+        expect_developed_size(session, solid, size_within(CadForm::step));
+        const double drilled = round_area(hole.radius) * std::sqrt(1 + lean * lean);
+        // chords of 0.35 radians take 2 % of a hole
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle),
+                    developed_area(solid) - drilled, 0.025 * drilled);
+    }
+    EXPECT_GE(unsaid, 50); // the others are told
+}
+
 } // namespace spia
