@@ -161,6 +161,17 @@ ChainWishes wishes_of(const RunArguments& arguments)
     return result;
 }
 
+/// The last stage that something that was asked for needs: who wants the blank alone waits for no
+/// surface, and reads no warning of one.
+Stage last_stage(const RunArguments& arguments)
+{
+    const bool surface = std::ranges::any_of(arguments.formats, shows_surface) || !arguments.json.empty() ||
+                         !arguments.report.empty() || !arguments.deform.empty() || !arguments.cells.empty() ||
+                         !arguments.corners.empty() || arguments.tolerance || arguments.grid != GridOptions{} ||
+                         arguments.patches != "one";
+    return surface ? Stage::fit : Stage::solve;
+}
+
 void say_of_reading(const RunArguments& arguments, const PartFile& part)
 {
     for (const std::string& line : reading_notes(part))
@@ -248,7 +259,8 @@ int run(const RunArguments& arguments)
         require_possible(read);
         require_place(read, arguments.folder, arguments.formats, {arguments.json, arguments.report}, wanted);
     };
-    const ChainRun made = run_shown(std::move(session), Stage::read, Stage::fit, wishes_of(arguments), begin_with_part);
+    const ChainRun made =
+        run_shown(std::move(session), Stage::read, last_stage(arguments), wishes_of(arguments), begin_with_part);
     if (!made.session.blank) {
         if (!arguments.report.empty())
             say("report    not written: there is no blank\n");

@@ -22,6 +22,10 @@ draw() { # NAME PART ARGUMENT... - by both commands, in all versions and curves
 draw channel "$parts/perforated-channel.obj"
 [ "$(grep -cE '^(UP|DOWN) ' "$out/channel-run-r2000-arcs.dxf")" = 5 ] || fail "not a text for each of the channel's bends, whose triangles lie askew over them"
 draw dome "$parts/dome.obj"
+expect 0 "^surface " "$spia" run "$parts/dome.obj" --formats dxf --tolerance 0.1 --out "$out"
+expect 0 "^surface " "$spia" run "$parts/dome.obj" --formats dxf,iges --out "$out"
+expect 0 "wrote .*dxf" "$spia" run "$parts/dome.obj" --formats dxf --out "$out"
+! grep -qE "^(surface|grid|analysis) |^WARNING" "$out/log" || fail "who wants the blank alone reads of a surface"
 expect 2 "no splines" "$spia" run "$parts/dome.obj" --dxf-version r12 --dxf-curves splines --out "$out"
 expect 2 "dxf-tolerance is a distance" "$spia" run "$parts/dome.obj" --dxf-tolerance nan --out "$out"
 if [ -d "$cases" ]; then

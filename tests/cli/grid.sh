@@ -6,7 +6,7 @@ spia=$1 out=$2 parts=$3/parts
 run() { # CODE WORDS ARGUMENT...
     local code=$1 words=$2
     shift 2
-    expect "$code" "$words" "$spia" run "$@" --formats csv --out "$out/result"
+    expect "$code" "$words" "$spia" run "$@" --formats csv,iges --out "$out/result"
 }
 channel=$parts/lipped-channel.obj
 run 0 "50 % of the lines by bends, evened out, 0 folded" "$channel" --to-bends 0.5 --even-cells --json "$out/a.json"

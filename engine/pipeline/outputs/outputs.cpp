@@ -111,6 +111,8 @@ const std::vector<std::string>& output_formats()
     return formats;
 }
 
+bool shows_surface(const std::string& format) { return format != "dxf" && format != "csv" && !is_deck_format(format); }
+
 std::vector<fs::path> output_files(const Session& session, const fs::path& folder,
                                    const std::vector<std::string>& formats, const OutputOptions& options)
 {

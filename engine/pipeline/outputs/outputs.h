@@ -18,6 +18,9 @@ const std::vector<std::string>& output_formats();
 const std::vector<std::string>& usual_formats(); ///< what is written unless something else is asked
                                                  ///< for
 
+/// Whether files of a format are of the surface or show something of it.
+bool shows_surface(const std::string& format);
+
 /// What a CSV export consists of; each is a file of its own.
 struct CsvTables {
     bool fields = true, outline = true, faces = true;
