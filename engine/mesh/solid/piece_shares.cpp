@@ -98,6 +98,23 @@ std::vector<char> rounded_into_walls(const SurfacePieces& pieces, const std::vec
     return found;
 }
 
+/// What goes on level from a skin is of that skin: in the outer corner of a sharp bend nothing is
+/// opposite to it.
+void keep_corners(const SurfacePieces& pieces, std::vector<char>& border)
+{
+    constexpr double enough = 0.25; // of its outline; a wall in two faces goes on over their short ends
+    const auto n = size_t(pieces.count());
+    std::vector<double> level(n, 0), around(n, 0);
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
+            around[size_t(p)] += c.length();
+            level[size_t(p)] += border[size_t(q)] ? 0 : c.level;
+        }
+    for (size_t p = 0; p < n; ++p)
+        if (level[p] > enough * around[p])
+            border[p] = 0;
+}
+
 /// The outer sides of sharp bends are askew to the inner ones as well; but they go on smoothly at
 /// most of their outline, whereas a countersink ends at its hole.
 void keep_bends(const SurfacePieces& pieces, std::vector<double>& sloped)
@@ -137,10 +154,11 @@ PieceShares piece_shares(const SurfacePieces& pieces, const std::vector<Opposite
     // other side says nothing.
     result.steep = sloped_shares(pieces, places, thickness, steepest);
     keep_bends(pieces, result.steep);
-    const std::vector<char> rounded = rounded_into_walls(pieces, places, thickness);
+    result.border = rounded_into_walls(pieces, places, thickness);
     for (size_t p = 0; p < result.opposite.size(); ++p)
-        if (result.sloped[p] > mostly_sloped || rounded[p] || across_it[p])
+        if (result.sloped[p] > mostly_sloped || result.border[p] || across_it[p])
             result.opposite[p] = 0;
+    keep_corners(pieces, result.border);
     return result;
 }
 

@@ -13,6 +13,7 @@ struct PieceShares {
     std::vector<double> sloped;   ///< askew to the other side, by 20 to 44 degrees; 0 of bends
     std::vector<double> steep;    ///< by 20 to 60 degrees
     std::vector<char> low_wall;   ///< whether it is one, as around marks and steps
+    std::vector<char> border;     ///< whether it is a wall or a strip of a rounding that goes over into one
 };
 
 constexpr double surely_skin = 0.8;    ///< opposite to another: it belongs to a skin

@@ -145,17 +145,18 @@ std::vector<int> touched_sides(const SurfacePieces& pieces, const Side& side)
 /// @returns whether one was
 bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, Side& side)
 {
+    const auto unsure = [&](int p) { return side[size_t(p)] == -1 && !share.border[size_t(p)]; };
     DisjointSets group(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
-        if (c.smooth > 0 && side[size_t(c.a)] == -1 && side[size_t(c.b)] == -1)
+        if (c.smooth > 0 && unsure(c.a) && unsure(c.b))
             group.join(c.a, c.b);
     struct Touch {
         std::array<double, 2> smooth{}, sharp{};
-        double area = 0, across = 0, sloped = 0;
+        double area = 0, across = 0, sloped = 0, into_border = 0; ///< mm, the last one
     };
     std::map<int, Touch> touches;
     for (int p = 0; p < pieces.count(); ++p)
-        if (side[size_t(p)] == -1) {
+        if (unsure(p)) {
             Touch& touch = touches[group.root(p)];
             touch.area += pieces.area[size_t(p)];
             touch.across += pieces.area[size_t(p)] * share.opposite[size_t(p)];
@@ -163,10 +164,11 @@ bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, Side& 
         }
     const std::vector<int> touched = touched_sides(pieces, side);
     for (const PieceContact& c : pieces.contact)
-        for (const auto& [unsure, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
-            if (side[size_t(unsure)] != -1)
+        for (const auto& [one, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
+            if (!unsure(one))
                 continue;
-            Touch& touch = touches[group.root(unsure)];
+            Touch& touch = touches[group.root(one)];
+            touch.into_border += share.border[size_t(known)] ? c.smooth : 0;
             if (side[size_t(known)] >= 0) {
                 touch.smooth[size_t(side[size_t(known)])] += c.smooth;
                 touch.sharp[size_t(side[size_t(known)])] += c.concave + c.convex;
@@ -176,10 +178,12 @@ bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, Side& 
         }
     bool settled = false;
     for (int p = 0; p < pieces.count(); ++p) {
-        if (side[size_t(p)] != -1)
+        if (!unsure(p))
             continue;
         const Touch& touch = touches[group.root(p)];
-        if (touch.sloped > mostly_sloped * touch.area)
+        constexpr double rounding = 0.25; // of what goes on smoothly
+        if (touch.sloped > mostly_sloped * touch.area ||
+            touch.into_border > rounding * (touch.into_border + touch.smooth[0] + touch.smooth[1]))
             continue;
         for (const size_t s : {size_t(0), size_t(1)}) {
             constexpr double least = 0.1; // a bit of a sink is level with what was put back beside it

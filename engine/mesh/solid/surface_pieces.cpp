@@ -62,8 +62,9 @@ std::vector<int> grown_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& norma
 
 SurfacePieces surface_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const std::vector<int>& unit)
 {
-    const double sharp = std::cos(40 * radians); // bends of coarse meshes turn by less, rims by 90
-                                                 // degrees
+    const double sharp = std::cos(40 * radians);  // bends of coarse meshes turn by less, rims by 90
+                                                  // degrees
+    const double level = std::cos(0.5 * radians); // rounding of coordinates; chords turn by more
     const std::vector<EdgeUse> uses = edge_uses(mesh.triangle);
     SurfacePieces result;
     if (unit.empty())
@@ -97,6 +98,8 @@ SurfacePieces surface_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal
                        : turn > 0                              ? contact.convex
                                                                : contact.concave;
         kind += along.norm();
+        if (m.dot(n) >= level * m.norm() * n.norm())
+            contact.level += along.norm();
     });
     for (const auto& [pair, contact] : contacts)
         result.contact.push_back(contact);

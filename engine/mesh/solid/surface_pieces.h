@@ -9,6 +9,7 @@ namespace spia {
 struct PieceContact {
     int a, b;           ///< pieces, a < b
     double smooth = 0;  ///< mm of edge across which the surface goes on smoothly
+    double level = 0;   ///< mm of these, across which it does not turn
     double concave = 0; ///< mm of sharp edge, hollow seen from outside
     double convex = 0;  ///< mm of sharp edge
 

@@ -157,6 +157,38 @@ TEST(BrokenEdges, OfSomeBordersDoNotMoveThemThroughBends)
     }
 }
 
+TEST(BrokenEdges, OfBendsThatAreAlmostSharpDoNotMoveTheBorder)
+{
+    const ScratchFolder folder;
+    constexpr int family = 40;
+    int told = 0;
+    for (std::uint64_t seed = 1; seed <= family; ++seed) {
+        shapes::SeededRandom random(seed + 47000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(1, 5);
+        solid.leg = {t * random.between(10, 20), t * random.between(10, 20)};
+        solid.bend = {{t * random.between(0.02, 0.1), random.between(0.7, 1.6) * (random.coin() ? 1 : -1)}};
+        solid.width = t * random.between(14, 20);
+        solid.pose = seed;
+        const bool outside = solid.bend[0].angle > 0; // of the bend: to its left are the centres of bends to the left
+        solid.broken = {t * random.between(0.15, 0.45), true, !outside};
+        if (random.coin())
+            solid.broken_too = {t * random.between(0.05, 0.3), false, outside};
+        SCOPED_TRACE(fmt::format("{}: R {:.3g} t, {:.3g} radians, rounding {:.3g}, chamfer {:.3g}, t {:.3g}", seed,
+                                 solid.bend[0].inner_radius / t, solid.bend[0].angle, solid.broken.size,
+                                 solid.broken_too.size, t));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        if (!session.part->doubts.empty()) {
+            ++told;
+            continue;
+        }
+        expect_developed_size(session, solid, size_within(CadForm::step));
+        expect_developed_area(session, solid, 0, 1e-5 * developed_area(solid));
+    }
+    EXPECT_LE(told, family / 20);
+}
+
 TEST(BrokenEdges, MayBeChamferedAtOneSideAndRoundedAtTheOther)
 {
     const ScratchFolder folder;
