@@ -224,6 +224,24 @@ struct LaidSkin {
     Remarks remarks;
 };
 
+/// Puts the border where the solid ends: what would be told first, then what is nearer, of CAD, whose
+/// walls are no chords, as long as nothing more is to be told by that.
+/// @param told  mm, by how much a border is beside its place that is told
+void put_border(SkinMesh& middle, const Surfaces& under, const GivenSolid& solid, double told)
+{
+    onto_projection(middle, under, solid, told);
+    if (solid.deflection == 0)
+        return;
+    constexpr double fine = 0.1; // of what is told
+    SkinMesh finer = middle;
+    onto_projection(finer, under, solid, fine * told);
+    const auto places = [&](const SkinMesh& skin) {
+        return beside_solid(skin.mesh, solid.mesh, solid.thickness, told, solid.deflection).size();
+    };
+    if (places(finer) <= places(middle))
+        middle = std::move(finer);
+}
+
 /// A doubt where the edge of the blank is beside its place.
 Remarks on_border(const TriMesh& middle, const GivenSolid& solid, double tolerance)
 {
@@ -451,7 +469,7 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
         const GivenSolid given{examined.mesh, stated, sheet.thickness, sheet.flipped,
                                part.cad ? part.cad->deflection : 0};
         constexpr double speck = 0.02; // of the thickness; right ones of coarse meshes are within 0.01
-        onto_projection(laid.skin, surface, given, speck * sheet.thickness);
+        put_border(laid.skin, surface, given, speck * sheet.thickness);
         add(part, on_border(laid.skin.mesh, given, speck * sheet.thickness));
     }
     const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.skin.side, surface);

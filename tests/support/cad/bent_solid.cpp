@@ -302,7 +302,9 @@ TopoDS_Shape with_broken_edges(const TopoDS_Shape& shape, const BentSolid& solid
     int left = broken.edges > 0 ? broken.edges : faces.Extent();
     for (int i = 1; i <= faces.Extent() && left > 0; ++i) {
         const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
-        if (on_side(faces(i).First(), solid, profile, sides) == on_side(faces(i).Last(), solid, profile, sides))
+        const bool first = on_side(faces(i).First(), solid, profile, sides),
+                   last = on_side(faces(i).Last(), solid, profile, sides);
+        if (first == last && (first || !broken.across))
             continue;
         --left;
         if (broken.round)

@@ -80,12 +80,13 @@ struct BendCut {
 
 /// Edges of the border at one side of the sheet or both, all around it, chamfered or rounded.
 struct BrokenEdges {
-    double size = 0;    ///< mm, of the chamfer's legs, or the radius; 0: they are sharp
-    bool round = false; ///< else a chamfer of 45 degrees
-    bool left = true;   ///< at that side
-    bool both = false;  ///< at the other side as well
-    int edges = 0;      ///< only so many of them; 0: all
-    bool cut = false;   ///< after cutouts, and their edges as well
+    double size = 0;     ///< mm, of the chamfer's legs, or the radius; 0: they are sharp
+    bool round = false;  ///< else a chamfer of 45 degrees
+    bool left = true;    ///< at that side
+    bool both = false;   ///< at the other side as well
+    int edges = 0;       ///< only so many of them; 0: all
+    bool cut = false;    ///< after cutouts, and their edges as well
+    bool across = false; ///< with both: those across the thickness as well, all in one
 };
 
 /// A level step along a border, all along it.

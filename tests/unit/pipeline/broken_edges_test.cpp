@@ -255,6 +255,32 @@ TEST(BrokenEdges, GoAroundRoundCorners)
     }
 }
 
+TEST(BrokenEdges, OfPartsThatAreDeburredAllAroundLeaveTheirSize)
+{
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        shapes::SeededRandom random(seed + 53000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(1.5, 5);
+        solid.leg = {t * random.between(15, 40)};
+        if (random.coin()) {
+            solid.bend = {{t * random.between(0.7, 2), random.between(0.5, 1.6) * (random.coin() ? 1 : -1)}};
+            solid.leg.push_back(t * random.between(15, 40));
+        }
+        solid.width = t * random.between(15, 40);
+        solid.pose = seed;
+        solid.broken = {random.between(0.1, 0.3), random.coin(), true, true, 0, false, true};
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, {} {:.3g}, {} bends", seed, t,
+                                 solid.broken.round ? "round" : "chamfers", solid.broken.size, solid.bend.size()));
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const Session session = solved_part(folder / "part.step");
+        for (const std::string& doubt : session.part->doubts)
+            EXPECT_THAT(doubt, testing::HasSubstr("more like a block"));
+        constexpr double fine = 2e-3; // of the thickness: nearer than that nothing is put right
+        expect_developed_size(session, solid, 2 * fine * t);
+    }
+}
+
 TEST(BrokenEdges, BesideATaperedFlangeDoNotMoveTheEndOfTheBend)
 {
     const ScratchFolder folder;
