@@ -11,6 +11,7 @@
 #include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/mesh/solid/beside_solid.h"
+#include "engine/mesh/solid/blind_holes.h"
 #include "engine/mesh/solid/mark_outlines.h"
 #include "engine/mesh/solid/measured_cylinders.h"
 #include "engine/mesh/solid/onto_projection.h"
@@ -314,6 +315,23 @@ Remarks on_wide_holes(const std::vector<SunkHole>& holes, SheetSide taken)
     return remarks;
 }
 
+/// What does not go through the sheet is not cut out of it.
+Remarks on_blind_holes(const std::vector<BlindHole>& holes)
+{
+    Remarks remarks;
+    if (holes.empty())
+        return remarks;
+    std::vector<Eigen::Vector3d> places;
+    places.reserve(holes.size());
+    for (const BlindHole& hole : holes)
+        places.push_back(hole.place);
+    const double depth = std::ranges::max_element(holes, {}, &BlindHole::depth)->depth;
+    remarks.doubt(fmt::format("{} not go through the sheet, up to {:.3g} mm deep, at {} mm: the blank and its drawing "
+                              "have nothing there; mark it by hand, or leave it out of the model",
+                              counted(holes.size(), "hole does", "holes do"), depth, place_text(places)));
+    return remarks;
+}
+
 /// A solid whose file says that it is one may still be a block.
 Remarks on_block(const ThinSolid& sheet)
 {
@@ -475,6 +493,7 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.skin.side, surface);
     add(part, uneven);
     add(part, on_open_sinks(sinks, laid.kind, laid.skin.side));
+    add(part, on_blind_holes(blind_holes(part.mesh, sheet)));
     part.solid = origin_of(examined, plain, laid, holes);
     if (measured)
         part.solid->surface = of_file_faces(part, surface);

@@ -103,7 +103,8 @@ TopoDS_Shape sunk(TopoDS_Shape shape, const BentSolid& solid, const Profile& pro
     const gp_Vec in = gp_Vec(std::sin(h), 0, -std::cos(h)) * side;
     const gp_Pnt at = beside(profile, leg, s, side * t / 2).Translated(gp_Vec(0, sink.centre.y(), 0)),
                  before = at.Translated(in * -t);
-    shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.hole, 3 * t).Shape());
+    if (sink.hole > 0)
+        shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.hole, 3 * t).Shape());
     if (sink.seam)
         shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.wide, t).Shape());
     if (sink.counterbore)

@@ -34,7 +34,7 @@ struct Cutout {
 struct Sink {
     int leg = 0;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, as of a cutout
-    double hole = 3, wide = 6;                        ///< mm, radii
+    double hole = 3, wide = 6;                        ///< mm, radii; no hole of radius 0
     double depth = 1;                                 ///< mm, from that side to where the hole has
                                                       ///< its radius
     bool counterbore = false;
