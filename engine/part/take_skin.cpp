@@ -233,9 +233,10 @@ void put_border(SkinMesh& middle, const Surfaces& under, const GivenSolid& solid
     onto_projection(middle, under, solid, told);
     if (solid.deflection == 0)
         return;
-    constexpr double fine = 0.1; // of what is told
+    constexpr double fine = 0.1;   // of what is told
+    constexpr double straight = 5; // thicknesses; holes have finer chords than the outline of the solid
     SkinMesh finer = middle;
-    onto_projection(finer, under, solid, fine * told);
+    onto_projection(finer, under, solid, fine * told, straight * solid.thickness);
     const auto places = [&](const SkinMesh& skin) {
         return beside_solid(skin.mesh, solid.mesh, solid.thickness, told, solid.deflection).size();
     };

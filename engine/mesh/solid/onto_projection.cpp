@@ -34,7 +34,9 @@ using Ring = std::vector<Corner>;
 /// A middle surface, flat by flat.
 class Flats {
 public:
-    Flats(const SkinMesh& middle, const std::vector<BesideLoop>& loops) : middle_(middle), mesh_(middle.mesh)
+    /// @param least_edge  mm, of the border; shorter ones stay
+    Flats(const SkinMesh& middle, const std::vector<BesideLoop>& loops, double least_edge)
+        : middle_(middle), mesh_(middle.mesh), least_edge_(least_edge)
     {
         const std::vector<EdgeUse> uses = edge_uses(mesh_.triangle);
         neighbour_ = face_neighbours(mesh_.triangles(), uses);
@@ -115,7 +117,8 @@ public:
     /// that of the solid.
     bool moves(int v, int w) const
     {
-        return edge_beside_.contains({v, w}) && (beside_[size_t(v)] > 0 || beside_[size_t(w)] > 0 || at(v, w) > 0);
+        return edge_beside_.contains({v, w}) && (mesh_.position.col(w) - mesh_.position.col(v)).norm() >= least_edge_ &&
+               (beside_[size_t(v)] > 0 || beside_[size_t(w)] > 0 || at(v, w) > 0);
     }
     bool beside_at(int vertex) const { return beside_[size_t(vertex)] > 0; }
 
@@ -196,6 +199,7 @@ public:
 private:
     const SkinMesh& middle_;
     const TriMesh& mesh_;
+    double least_edge_;
     Eigen::Matrix3Xi neighbour_;
     PlaneRegions planes_;
     std::vector<double> beside_;                        ///< mm, per vertex
@@ -409,10 +413,10 @@ Held held(const TriMesh& middle, const GivenSolid& solid, double tolerance)
 
 /// Puts flats onto the projection one by one.
 void flats_onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, Held& now,
-                           const GivenSolid& solid, double tolerance)
+                           const GivenSolid& solid, double tolerance, double least_edge)
 {
     for (int plane = 0; now.sum > 0;) {
-        const Flats flats(middle, now.loops);
+        const Flats flats(middle, now.loops, least_edge);
         while (plane < flats.count() && !flats.is_off(plane, under))
             ++plane;
         if (plane == flats.count())
@@ -438,7 +442,7 @@ void flats_onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& u
 } // namespace
 
 void onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, const GivenSolid& solid,
-                     double tolerance)
+                     double tolerance, double least_edge)
 {
     Held now = held(middle.mesh, solid, tolerance);
     if (now.sum > 0 && !under.empty()) {
@@ -448,7 +452,7 @@ void onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, 
             now = std::move(then);
         }
     }
-    flats_onto_projection(middle, under, now, solid, tolerance);
+    flats_onto_projection(middle, under, now, solid, tolerance, least_edge);
 }
 
 } // namespace spia

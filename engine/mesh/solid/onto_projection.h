@@ -16,7 +16,8 @@ namespace spia {
 /// @param middle  new vertices are called by those of the flat's border that they lie beside
 /// @param under  per triangle that the surface's are called by, what it lies on; empty: not known
 /// @param tolerance  mm; what is nearer to its place stays
+/// @param least_edge  mm; shorter edges of flats stay
 void onto_projection(SkinMesh& middle, const std::vector<StatedSurface>& under, const GivenSolid& solid,
-                     double tolerance);
+                     double tolerance, double least_edge = 0);
 
 } // namespace spia
