@@ -1,5 +1,6 @@
 #include "engine/pipeline/shortcomings/shortcomings.h"
 
+#include <cmath>
 #include <fmt/core.h>
 
 #include "engine/core/place_text.h"
@@ -49,6 +50,17 @@ std::vector<std::string> unlikely_input(const FlattenOptions& options)
             list.push_back(
                 fmt::format("the drawbead {} has no effect: it is too shallow to bend the sheet", bead.name));
     return list;
+}
+
+/// A solid has its thickness.
+std::vector<std::string> other_thickness(const PartFile& part, double thickness)
+{
+    constexpr double rounding = 1e-6; // of it
+    if (!part.solid || !part.thickness_mm || std::abs(thickness - *part.thickness_mm) <= rounding * thickness)
+        return {};
+    return {fmt::format("the solid is {:.6g} mm thick and the sheet is calculated as {:.6g} mm: its bends are laid "
+                        "with the thickness of the solid, strains and forces are not; give {:.6g} mm",
+                        *part.thickness_mm, thickness, *part.thickness_mm)};
 }
 
 /// What was asked for and does not act as it was meant.
@@ -109,6 +121,8 @@ std::vector<std::string> shortcomings(const Session& session)
         list = session.part->doubts;
     if (session.blank) {
         for (std::string& line : unlikely_input(session.options.flatten))
+            list.push_back(std::move(line));
+        for (std::string& line : other_thickness(*session.part, session.options.flatten.thickness))
             list.push_back(std::move(line));
         for (std::string& line : idle_process(session))
             list.push_back(std::move(line));

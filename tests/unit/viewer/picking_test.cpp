@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/viewer/model/actions/names.h"
+#include "app/viewer/model/picking/pickers.h"
 #include "app/viewer/views/views.h"
 #include "tests/unit/viewer/model_fixture.h"
 
@@ -185,6 +186,20 @@ TEST_F(Picking, DrawsASectionAndGoesToAFaceInWaysThatCanBeTakenBack)
     model.apply(Undo{});
     model.apply(Undo{});
     EXPECT_FALSE(document.section);
+}
+
+TEST_F(Picking, ViewsThatShowNothingHaveNothingToPick)
+{
+    open();
+    Pickers pickers;
+    const auto anything = [&](View view) { return pickers.mesh(document.session, view) != nullptr; };
+    EXPECT_TRUE(anything(View::part));
+    for (const View view : {View::blank, View::quads, View::surface})
+        EXPECT_FALSE(anything(view)) << name(view);
+    model.apply(RunTo{Stage::fit});
+    wait();
+    for (const View view : all_views)
+        EXPECT_TRUE(anything(view)) << name(view);
 }
 
 } // namespace spia::viewer

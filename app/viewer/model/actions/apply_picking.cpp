@@ -32,7 +32,9 @@ const RayPicker& ViewerModel::Apply::picker(View view)
             "The part is shown between two steps; move the slider of the steps to a whole step to pick on it.");
     if (const RayPicker* found = model.pickers_.picker(session, view))
         return *found;
-    throw InputError(view == View::blank ? "Unfold the part first." : "Open a part first.");
+    throw InputError(!session.part         ? "Open a part first."
+                     : view == View::blank ? "Unfold the part first."
+                                           : "Make the grid and the surface first: the view shows nothing yet.");
 }
 
 void ViewerModel::Apply::operator()(const PickAt& action)

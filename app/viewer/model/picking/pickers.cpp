@@ -67,7 +67,8 @@ const TriMesh* Pickers::mesh(const Session& session, View view)
     follow(session);
     if (view == View::blank)
         return flat_.get();
-    if (view == View::part && on_the_way_)
+    if ((view == View::part && on_the_way_) || (view == View::surface && !session.surface) ||
+        (view == View::quads && !session.lifted && !session.surface)) // they show nothing
         return nullptr;
     if (view == View::part && unfolded_)
         return unfolded_.get();

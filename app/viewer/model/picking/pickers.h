@@ -28,8 +28,8 @@ public:
     /// picked there.
     bool on_the_way() const { return on_the_way_; }
 
-    /// That of a view: the blank's, or the part's for the others. Null if there is nothing to pick
-    /// yet.
+    /// That of a view: the blank's, or the part's for the others. Null if there is nothing to pick,
+    /// as in views that show nothing yet.
     const RayPicker* picker(const Session& session, View view);
     /// Null also while it is being made.
     const RayPicker* ready_picker(const Session& session, View view);

@@ -67,7 +67,7 @@ Doubt with_click(ChainStep step, const std::string& text, const Document& docume
     const Session& session = document.session;
     const auto about = [&](std::string_view words) { return text.find(words) != std::string::npos; };
     Doubt doubt{step, sentence(window_text(text))};
-    if (about("yields at") || about("mm thick: is that in mm"))
+    if (about("yields at") || about("mm thick: is that in mm") || about("its bends are laid with the thickness"))
         doubt.step = ChainStep::sheet;
     else if (step == ChainStep::unfold && text == session.blank->report.reason) {
         const auto& steps = document.made_with.steps;

@@ -134,10 +134,6 @@ void sheet_step(Frame& frame)
     if (changed || (once_more && !is_given(document.thickness_from)))
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
-    const auto& part = document.session.part;
-    if (part && part->solid && part->thickness_mm && *part->thickness_mm != thickness)
-        muted(frame, fmt::format("The solid is {} thick; its bends are laid with that",
-                                 thickness_text(*part->thickness_mm, frame.lengths())));
     if (document.material_from == SheetSource::preference || document.thickness_from == SheetSource::preference)
         muted(frame, document.material_from != SheetSource::preference    ? "Thickness of your preferences"
                      : document.thickness_from != SheetSource::preference ? "Grade of your preferences"
