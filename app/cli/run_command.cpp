@@ -165,11 +165,15 @@ ChainWishes wishes_of(const RunArguments& arguments)
 /// surface, and reads no warning of one.
 Stage last_stage(const RunArguments& arguments)
 {
-    const bool surface = std::ranges::any_of(arguments.formats, shows_surface) || !arguments.json.empty() ||
-                         !arguments.report.empty() || !arguments.deform.empty() || !arguments.cells.empty() ||
-                         !arguments.corners.empty() || arguments.tolerance || arguments.grid != GridOptions{} ||
-                         arguments.patches != "one";
-    return surface ? Stage::fit : Stage::solve;
+    const RunArguments plain;
+    const bool files =
+        std::ranges::any_of(arguments.formats, shows_surface) || !arguments.json.empty() || !arguments.report.empty();
+    const bool asked = !arguments.deform.empty() || !arguments.cells.empty() || !arguments.corners.empty() ||
+                       arguments.grid != plain.grid || arguments.tolerance || arguments.patches != plain.patches ||
+                       arguments.degree != plain.degree || arguments.ends != plain.ends ||
+                       arguments.fit_parameters != plain.fit_parameters || arguments.fill_holes ||
+                       arguments.max_control_points != plain.max_control_points;
+    return files || asked ? Stage::fit : Stage::solve;
 }
 
 void say_of_reading(const RunArguments& arguments, const PartFile& part)

@@ -244,6 +244,15 @@ void put_border(SkinMesh& middle, const Surfaces& under, const GivenSolid& solid
         middle = std::move(finer);
 }
 
+std::vector<Eigen::Vector3d> places_of(const auto& rows)
+{
+    std::vector<Eigen::Vector3d> places;
+    places.reserve(rows.size());
+    for (const auto& row : rows)
+        places.push_back(row.place);
+    return places;
+}
+
 /// A doubt where the edge of the blank is beside its place.
 Remarks on_border(const TriMesh& middle, const GivenSolid& solid, double tolerance)
 {
@@ -251,10 +260,6 @@ Remarks on_border(const TriMesh& middle, const GivenSolid& solid, double toleran
     Remarks remarks;
     if (off.empty())
         return remarks;
-    std::vector<Eigen::Vector3d> places;
-    places.reserve(off.size());
-    for (const BesideSolid& row : off)
-        places.push_back(row.place);
     const auto distance = [](const BesideSolid& row) { return std::abs(row.beside); };
     const BesideSolid& worst = *std::ranges::max_element(off, {}, distance);
     remarks.doubt(fmt::format(
@@ -262,7 +267,7 @@ Remarks on_border(const TriMesh& middle, const GivenSolid& solid, double toleran
         "{}: at {} mm. Compare the outline there with the part and correct it by hand, or draw that edge square to the "
         "sheet, without what is sunk or rounded at both skins",
         counted(off.size(), "place", "places"), distance(worst), worst.beside > 0 ? "small" : "large",
-        place_text(places)));
+        place_text(places_of(off))));
     return remarks;
 }
 
@@ -322,14 +327,10 @@ Remarks on_blind_holes(const std::vector<BlindHole>& holes)
     Remarks remarks;
     if (holes.empty())
         return remarks;
-    std::vector<Eigen::Vector3d> places;
-    places.reserve(holes.size());
-    for (const BlindHole& hole : holes)
-        places.push_back(hole.place);
     const double depth = std::ranges::max_element(holes, {}, &BlindHole::depth)->depth;
     remarks.doubt(fmt::format("{} not go through the sheet, up to {:.3g} mm deep, at {} mm: the blank and its drawing "
                               "have nothing there; mark it by hand, or leave it out of the model",
-                              counted(holes.size(), "hole does", "holes do"), depth, place_text(places)));
+                              counted(holes.size(), "hole does", "holes do"), depth, place_text(places_of(holes))));
     return remarks;
 }
 
