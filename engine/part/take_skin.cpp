@@ -225,18 +225,19 @@ struct LaidSkin {
     Remarks remarks;
 };
 
-/// Puts the border where the solid ends: what would be told first, then what is nearer, of CAD, whose
-/// walls are no chords, as long as nothing more is to be told by that.
+/// Puts the border where the solid ends: of CAD, whose walls are no chords, what is straight also
+/// where that would not be told, as long as nothing more is to be told by that.
 /// @param told  mm, by how much a border is beside its place that is told
 void put_border(SkinMesh& middle, const Surfaces& under, const GivenSolid& solid, double told)
 {
+    SkinMesh finer = middle;
     onto_projection(middle, under, solid, told);
     if (solid.deflection == 0)
         return;
     constexpr double fine = 0.1;   // of what is told
     constexpr double straight = 5; // thicknesses; holes have finer chords than the outline of the solid
-    SkinMesh finer = middle;
     onto_projection(finer, under, solid, fine * told, straight * solid.thickness);
+    onto_projection(finer, under, solid, told);
     const auto places = [&](const SkinMesh& skin) {
         return beside_solid(skin.mesh, solid.mesh, solid.thickness, told, solid.deflection).size();
     };

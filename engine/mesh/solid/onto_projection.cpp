@@ -120,6 +120,7 @@ public:
         return edge_beside_.contains({v, w}) && (mesh_.position.col(w) - mesh_.position.col(v)).norm() >= least_edge_ &&
                (beside_[size_t(v)] > 0 || beside_[size_t(w)] > 0 || at(v, w) > 0);
     }
+    bool is_long(int v, int w) const { return (mesh_.position.col(w) - mesh_.position.col(v)).norm() >= least_edge_; }
     bool beside_at(int vertex) const { return beside_[size_t(vertex)] > 0; }
 
     /// The surface with other triangles on a plane.
@@ -300,10 +301,29 @@ private:
     const SlabProjection& projection_;
     double reach_; ///< mm, what is on the projection's outline
 
+    /// Long ones that are to be moved, and those that hang together with them.
+    std::vector<char> moving_edges(const Ring& ring) const
+    {
+        const size_t n = ring.size();
+        std::vector<char> off(n), result(n);
+        for (size_t i = 0; i < n; ++i) {
+            const int v = ring[i].vertex, w = ring[(i + 1) % n].vertex;
+            off[i] = flats_.moves(v, w);
+            result[i] = off[i] && flats_.is_long(v, w);
+        }
+        for (size_t k = 0; k < 2 * n; ++k) // there and back, across the seam of the ring
+            for (const auto& [from, to] :
+                 {std::pair(k % n, (k + 1) % n), std::pair((2 * n - 1 - k) % n, (3 * n - 2 - k) % n)})
+                if (result[from % n] && off[to % n])
+                    result[to % n] = 1;
+        return result;
+    }
+
     std::optional<Ring> moved(const Ring& ring) const
     {
         const size_t n = ring.size();
-        const auto moves = [&](size_t i) { return flats_.moves(ring[i % n].vertex, ring[(i + 1) % n].vertex); };
+        const std::vector<char> moving = moving_edges(ring);
+        const auto moves = [&](size_t i) { return moving[i % n] != 0; };
         size_t start = 0;
         while (start < n && (moves(start) || !moves(start + n - 1)))
             ++start; // the first edge that stays after one that moves
