@@ -6,10 +6,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <utility>
 #include <vector>
 
+#include "engine/mesh/curvature.h"
 #include "engine/mesh/edge_graph.h"
 #include "engine/mesh/topology.h"
 
@@ -96,30 +98,62 @@ void limit_by_ridges(const TriMesh& mesh, const EdgeGraph& graph, const std::vec
     }
 }
 
+/// Calls visit(vertex, edge from the one before, edge to the next) at vertices inside of lines.
+template <class Visit> void for_each_inner(const TriMesh& mesh, const std::vector<int>& line, const Visit& visit)
+{
+    const auto way = [&](int a, int b) -> Eigen::Vector3d { return mesh.position.col(b) - mesh.position.col(a); };
+    const bool closed = line.front() == line.back();
+    for (size_t i = 0; i < line.size(); ++i) {
+        const bool inner = i > 0 && i + 1 < line.size();
+        if (inner || closed)
+            visit(line[i], way(inner ? line[i - 1] : line[line.size() - 2], line[i]),
+                  way(line[i], inner ? line[i + 1] : line[1]));
+    }
+}
+
+double turn(const Eigen::Vector3d& in, const Eigen::Vector3d& out)
+{
+    return std::atan2(in.cross(out).norm(), in.dot(out));
+}
+
 /// Lines that are short, or turn within a short way.
 void limit_by_lines(const TriMesh& mesh, const KeptLines& lines, const SizeLimits& limits, Eigen::VectorXd& size)
 {
-    const auto way = [&](int a, int b) -> Eigen::Vector3d { return mesh.position.col(b) - mesh.position.col(a); };
+    const std::vector<char> within = bends_within(mesh, lines);
     for (const std::vector<int>& line : lines.line) {
         double length = 0;
         for (size_t i = 0; i + 1 < line.size(); ++i)
-            length += way(line[i], line[i + 1]).norm();
+            length += (mesh.position.col(line[i + 1]) - mesh.position.col(line[i])).norm();
         const bool closed = line.front() == line.back();
         const double most = closed ? length / 6 : length; // a hole stays round enough to be one
-        for (size_t i = 0; i < line.size(); ++i) {
-            size[line[i]] = std::min(size[line[i]], most);
-            const bool inner = i > 0 && i + 1 < line.size();
-            if (!inner && !closed)
-                continue;
-            const int before = inner ? line[i - 1] : line[line.size() - 2], after = inner ? line[i + 1] : line[1];
-            const Eigen::Vector3d in = way(before, line[i]), out = way(line[i], after);
-            const double turned = std::atan2(in.cross(out).norm(), in.dot(out));
-            size[line[i]] = std::min(size[line[i]], chord(2 * turned / (in.norm() + out.norm()), limits.sagitta));
-        }
+        for (const int v : line)
+            size[v] = std::min(size[v], most);
+        for_each_inner(mesh, line, [&](int v, const Eigen::Vector3d& in, const Eigen::Vector3d& out) {
+            const double curvature = 2 * turn(in, out) / (in.norm() + out.norm());
+            double most_here = chord(curvature, limits.sagitta);
+            if (within[size_t(v)])
+                most_here = std::max(chord(curvature, border_share * limits.sagitta), // no finer than it is known
+                                     std::min(most_here, std::max(in.norm(), out.norm())));
+            size[v] = std::min(size[v], most_here);
+        });
     }
 }
 
 } // namespace
+
+std::vector<char> bends_within(const TriMesh& mesh, const KeptLines& lines)
+{
+    const EdgeGraph graph = edge_graph(mesh);
+    const Eigen::VectorXd angle = angle_sums(mesh);
+    std::vector<char> result(size_t(mesh.vertices()), 0);
+    constexpr double mostly = 0.5; // of all that it bends by
+    for (const std::vector<int>& line : lines.line)
+        for_each_inner(mesh, line, [&](int v, const Eigen::Vector3d& in, const Eigen::Vector3d& out) {
+            result[size_t(v)] =
+                graph.on_rim[size_t(v)] && std::abs(std::numbers::pi - angle[v]) > mostly * turn(in, out);
+        });
+    return result;
+}
 
 void limit_growth(const TriMesh& mesh, double growth, Eigen::VectorXd& size)
 {

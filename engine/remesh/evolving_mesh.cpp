@@ -9,6 +9,7 @@
 
 #include "engine/mesh/topology.h"
 #include "engine/remesh/divide_line.h"
+#include "engine/remesh/edge_sizes.h"
 
 namespace spia {
 namespace {
@@ -59,9 +60,13 @@ EvolvingMesh::EvolvingMesh(const TriMesh& original, const KeptLines& lines, cons
     for (size_t l = 0; l < lines.line.size(); ++l)
         for (size_t i = 0; i + 1 < lines.line[l].size(); ++i)
             line_edge_[size_t(edge_between(Vertex(lines.line[l][i]), Vertex(lines.line[l][i + 1])).idx())] = int(l) + 1;
-    const Eigen::VectorXd along_border = (gap / 3).cwiseMin(sagitta);
+    Eigen::VectorXd off_line = (gap / 3).cwiseMin(sagitta);
+    const std::vector<char> within = bends_within(original, lines);
+    for (int v = 0; v < original.vertices(); ++v)
+        if (within[size_t(v)])
+            off_line[v] = std::min(off_line[v], border_share * sagitta);
     for (int l = 0; l < int(lines.line.size()); ++l)
-        divide(l, along_border, progress);
+        divide(l, off_line, progress);
     for (const std::vector<int>& line : lines.line)
         if (line.front() != line.back())
             forget_crumb(line);
