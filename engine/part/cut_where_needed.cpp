@@ -80,11 +80,14 @@ Finding finding_of(const CutPart& cut, const TriMesh& uncut, const std::vector<s
         std::move(place)};
 }
 
-/// "90 degrees at 4 corners"
+/// "up to 90 degrees at 4 corners and around 1 opening"
 std::string describe(const CornerSeam& seam)
 {
-    return fmt::format("up to {:.3g} degrees at {}", seam.defect * 180 / std::numbers::pi,
-                       counted(seam.corner.size(), "corner", "corners"));
+    const size_t corners = seam.corner.size(), openings = seam.opening.size();
+    return fmt::format("up to {:.3g} degrees{}{}{}", seam.defect * 180 / std::numbers::pi,
+                       corners > 0 ? " at " + counted(corners, "corner", "corners") : "",
+                       corners > 0 && openings > 0 ? " and" : "",
+                       openings > 0 ? " around " + counted(openings, "opening", "openings") : "");
 }
 
 } // namespace
@@ -141,19 +144,21 @@ std::optional<Finding> closed_corners(const PartFile& part, const SeamOptions& s
         return std::nullopt;
     Tally where;
     std::vector<Eigen::Vector3d> place;
-    for (const int v : corners->corner) {
-        where.add(part.source_vertex[size_t(v)]);
-        if (place.size() < where.where.size())
-            place.push_back(part.mesh.position.col(v));
-    }
+    for (const std::vector<int>* found : {&corners->corner, &corners->opening})
+        for (const int v : *found) {
+            where.add(part.source_vertex[size_t(v)]);
+            if (place.size() < where.where.size())
+                place.push_back(part.mesh.position.col(v));
+        }
     return Finding{
         Fault::closed_corner,
         Severity::note,
         where.count,
         where.first,
         fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", describe(*corners)),
-        fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain ({})", corners->length,
-                    mention(option::seam, "corners")),
+        fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain, if it does not lie on "
+                    "itself then ({})",
+                    corners->length, mention(option::seam, "corners")),
         where.where,
         std::move(place)};
 }

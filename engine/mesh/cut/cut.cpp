@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/mesh/curvature.h"
 #include "engine/mesh/cut/handle_cut.h"
 #include "engine/mesh/cut/ring_strain.h"
 #include "engine/mesh/disjoint_sets.h"
@@ -156,38 +157,20 @@ CutPart cut_closed(const TriMesh& part)
 struct Rims {
     std::vector<std::vector<int>> loop;
     std::vector<double> length;  ///< mm; the longest comes first
-    std::vector<double> turning; ///< to the left in the surface, the sheet on the left: 2 pi around
-                                 ///< a flat one, -2 pi at its holes, 0 at the ends of a tube
+    std::vector<double> turning; ///< radians
     double curvature = 0;        ///< radians, of all vertices inside without their signs: 0 where
                                  ///< the sheet is only bent
 };
 
 Rims rims_of(const TriMesh& part, std::vector<std::vector<int>> loops)
 {
-    Rims rims{std::move(loops), {}, {}, 0};
-    std::vector<double> angle(size_t(part.vertices()), 0);
-    for (int f = 0; f < part.triangles(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector3d at = part.position.col(part.triangle(k, f));
-            const Eigen::Vector3d a = part.position.col(part.triangle((k + 1) % 3, f)) - at,
-                                  b = part.position.col(part.triangle((k + 2) % 3, f)) - at;
-            angle[size_t(part.triangle(k, f))] += std::atan2(a.cross(b).norm(), a.dot(b));
-        }
-    std::vector<char> inside(angle.size(), 1);
-    for (const std::vector<int>& loop : rims.loop)
-        for (const int v : loop)
-            inside[size_t(v)] = 0;
-    for (size_t v = 0; v < angle.size(); ++v)
-        if (inside[v] && angle[v] > 0)
-            rims.curvature += std::abs(2 * std::numbers::pi - angle[v]);
+    Rims rims{std::move(loops), {}, {}, angle_defects(part).cwiseAbs().sum()};
+    rims.turning = turnings(part, rims.loop);
     for (const std::vector<int>& loop : rims.loop) {
-        double length = 0, turning = 0;
-        for (size_t i = 0; i < loop.size(); ++i) {
+        double length = 0;
+        for (size_t i = 0; i < loop.size(); ++i)
             length += (part.position.col(loop[(i + 1) % loop.size()]) - part.position.col(loop[i])).norm();
-            turning += std::numbers::pi - angle[size_t(loop[i])];
-        }
         rims.length.push_back(length);
-        rims.turning.push_back(turning);
     }
     return rims;
 }

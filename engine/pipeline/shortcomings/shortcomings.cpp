@@ -63,6 +63,13 @@ std::vector<std::string> other_thickness(const PartFile& part, double thickness)
                         *part.thickness_mm, thickness, *part.thickness_mm)};
 }
 
+/// One step strains what is only bent where it is joined; so do steps that have not been laid anew.
+std::vector<std::string> closed_corners(const PartFile& part)
+{
+    const Finding* corners = part.doctor.find(Fault::closed_corner);
+    return corners ? std::vector{corners->text + "; " + corners->advice} : std::vector<std::string>{};
+}
+
 /// What was asked for and does not act as it was meant.
 std::vector<std::string> idle_process(const Session& session)
 {
@@ -123,6 +130,8 @@ std::vector<std::string> shortcomings(const Session& session)
         for (std::string& line : unlikely_input(session.options.flatten))
             list.push_back(std::move(line));
         for (std::string& line : other_thickness(*session.part, session.options.flatten.thickness))
+            list.push_back(std::move(line));
+        for (std::string& line : closed_corners(*session.part))
             list.push_back(std::move(line));
         for (std::string& line : idle_process(session))
             list.push_back(std::move(line));

@@ -35,6 +35,27 @@ TriMesh pyramid(int sides, double radius, double height)
     return mesh;
 }
 
+/// Flat walls all around, between two openings.
+TriMesh frustum(int sides, double bottom, double top, double height, int rows)
+{
+    TriMesh mesh;
+    mesh.position.resize(3, sides * (rows + 1));
+    mesh.triangle.resize(3, 2 * sides * rows);
+    for (int r = 0; r <= rows; ++r)
+        for (int i = 0; i < sides; ++i) {
+            const double share = double(r) / rows, radius = bottom + share * (top - bottom);
+            mesh.position.col(r * sides + i) << radius * std::cos(2 * pi * i / sides),
+                radius * std::sin(2 * pi * i / sides), share * height;
+        }
+    for (int r = 0; r < rows; ++r)
+        for (int i = 0; i < sides; ++i) {
+            const int a = r * sides + i, b = r * sides + (i + 1) % sides;
+            mesh.triangle.col(2 * a) << a, b, b + sides;
+            mesh.triangle.col(2 * a + 1) << a, b + sides, a + sides;
+        }
+    return mesh;
+}
+
 } // namespace
 
 TEST(CornerSeam, TraysUnrollOnceTheirCornersAreCut)
@@ -71,6 +92,31 @@ TEST(CornerSeam, APyramidIsCutFromItsTopToItsBorder)
         const double wall = 2 * std::asin(30 * std::sin(pi / sides) / std::hypot(30, 25));
         EXPECT_NEAR(seam->defect, 2 * pi - sides * wall, 1e-9);
     }
+}
+
+TEST(CornerSeam, AHoopIsCutFromOneEndToTheOther)
+{
+    for (const int sides : {4, 24, 90})
+        for (const double top : {20., 26., 45.})
+            for (const int rows : {1, 3}) {
+                const double height = 12, edge = std::hypot(top - 20, height);
+                const TriMesh part = frustum(sides, 20, top, height, rows);
+                const auto seam = corner_seam(part);
+                ASSERT_TRUE(seam) << sides << ", " << top;
+                EXPECT_TRUE(seam->corner.empty());
+                EXPECT_EQ(seam->opening.size(), 1u);
+                EXPECT_NEAR(seam->length, edge, 1e-9) << "along an edge between two walls";
+                // the apex of the pyramid that it is a part of: what is left there of a full turn
+                const double fan = sides * 2 * std::asin((top - 20) * std::sin(pi / sides) / edge);
+                EXPECT_NEAR(seam->defect, 2 * pi - fan, 1e-6);
+                EXPECT_TRUE(surface_type(cut_at(part, *seam)).sheet());
+            }
+}
+
+TEST(CornerSeam, AWasherThatIsNearlyFlatHasNone)
+{
+    EXPECT_FALSE(corner_seam(frustum(60, 20, 40, 0, 3)));
+    EXPECT_FALSE(corner_seam(frustum(60, 20, 40, 2, 3))) << "5 degrees of slope take 0.03 of a turn";
 }
 
 TEST(CornerSeam, WhatUnrollsOrIsCurvedAllOverHasNone)

@@ -1,7 +1,6 @@
 #include "app/viewer/model/reports/lights.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
@@ -73,6 +72,9 @@ Doubt with_click(ChainStep step, const std::string& text, const Document& docume
         const auto& steps = document.made_with.steps;
         doubt.next =
             steps && !steps->polish ? "See the steps below that have not converged." : advice(session.blank->report);
+    } else if (about("only bent, but joined")) {
+        doubt.button = "Cut the corners";
+        doubt.remedy = Remedy::cut_corners;
     } else if (about("strained beyond")) {
         doubt.button = "Show where";
         doubt.remedy = Remedy::show_necking;
@@ -122,17 +124,6 @@ void judge_size(const Document& document, LengthUnit lengths, std::vector<Doubt>
         doubt.remedy = Remedy::read_in_other_unit;
     }
     doubts.push_back(std::move(doubt));
-}
-
-/// What strains a tray is not its bends.
-void judge_corners(const PartFile& part, std::vector<Doubt>& doubts)
-{
-    const Finding* corners = part.doctor.find(Fault::closed_corner);
-    if (!corners)
-        return;
-    std::string text = corners->text + ".";
-    text.front() = char(std::toupper(text.front()));
-    doubts.push_back({ChainStep::unfold, std::move(text), "", "Cut the corners", Remedy::cut_corners});
 }
 
 void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
@@ -385,7 +376,6 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
     if (made.blank && holds(Stage::solve)) {
         upto.blank = made.blank;
         add_shortcomings(ChainStep::unfold, upto, document, known, doubts);
-        judge_corners(*made.part, doubts);
         judge_cracks(document, doubts);
         if (const std::string left_out = made.options.steps ? left_out_by_steps(document) : ""; !left_out.empty())
             doubts.push_back({ChainStep::unfold, "The blank is that of the steps. " + left_out,
