@@ -40,9 +40,11 @@ Finding note_on(const std::vector<MarkedPlace>& marked, const std::string& text)
 /// "countersink 12 mm wide, 3 mm deep"
 std::string recess(const SunkHole& hole)
 {
-    const char* const kind = hole.counterbore ? "counterbore" : "countersink";
+    const char* const kind = hole.depth < 0 ? "boss" : hole.counterbore ? "counterbore" : "countersink";
     if (!(hole.diameter > 0))
         return kind;
+    if (hole.depth < 0)
+        return fmt::format("{} {:.4g} mm wide, {:.4g} mm high", kind, hole.diameter, -hole.depth);
     return fmt::format("{} {:.4g} mm wide, {:.4g} mm deep{}", kind, hole.diameter, hole.depth,
                        hole.stepped ? " in all, in steps" : "");
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <optional>
 #include <set>
 #include <utility>
@@ -261,14 +262,17 @@ Remarks on_border(const TriMesh& middle, const GivenSolid& solid, double toleran
     Remarks remarks;
     if (off.empty())
         return remarks;
-    const auto distance = [](const BesideSolid& row) { return std::abs(row.beside); };
-    const BesideSolid& worst = *std::ranges::max_element(off, {}, distance);
+    const auto [least, most] = std::ranges::minmax(off, {}, &BesideSolid::beside);
+    std::vector<std::string> wrong; // where the solid goes on the blank ends too early
+    if (most.beside > 0)
+        wrong.push_back(fmt::format("too small by up to {:.2g} mm", most.beside));
+    if (least.beside < 0)
+        wrong.push_back(fmt::format("too large by up to {:.2g} mm", -least.beside));
     remarks.doubt(fmt::format(
-        "the edge of the middle surface is beside that of the solid at {}, by up to {:.2g} mm, where the blank is too "
-        "{}: at {} mm. Compare the outline there with the part and correct it by hand, or draw that edge square to the "
-        "sheet, without what is sunk or rounded at both skins",
-        counted(off.size(), "place", "places"), distance(worst), worst.beside > 0 ? "small" : "large",
-        place_text(places_of(off))));
+        "the edge of the middle surface is beside that of the solid at {}, where the blank is {}: at {} mm. Compare the "
+        "outline there with the part and correct it by hand, or draw that edge square to the sheet, without what is sunk "
+        "or rounded at both skins",
+        counted(off.size(), "place", "places"), fmt::join(wrong, " and "), place_text(places_of(off))));
     return remarks;
 }
 
@@ -319,6 +323,26 @@ Remarks on_wide_holes(const std::vector<SunkHole>& holes, SheetSide taken)
             "{} at the {} skin, which is laid flat: cut so, what is sunk there is cut through; take "
             "the middle surface, where a hole has its least diameter ({})",
             counted(wide, "hole is wider", "holes are wider"), of_skin(taken), mention(option::skin, "middle")));
+    return remarks;
+}
+
+/// What stands up from the sheet is no part of it.
+Remarks on_bosses(const std::vector<SunkHole>& holes)
+{
+    std::vector<Eigen::Vector3d> places;
+    double high = 0;
+    for (const SunkHole& hole : holes)
+        if (hole.depth < 0) {
+            places.push_back(hole.centre);
+            high = std::max(high, -hole.depth);
+        }
+    Remarks remarks;
+    if (places.empty())
+        return remarks;
+    remarks.doubt(fmt::format("around {} something stands up from the sheet, up to {:.4g} mm, at {} mm, as a nut or a "
+                              "boss that was joined with it does: the blank is that of the sheet without it, its hole "
+                              "as wide as what is narrowest; leave it out of the model",
+                              counted(places.size(), "hole", "holes"), high, place_text(places)));
     return remarks;
 }
 
@@ -496,6 +520,7 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     const Remarks uneven = measured ? Remarks{} : on_uneven_bends(part.mesh, sheet, laid.skin.side, surface);
     add(part, uneven);
     add(part, on_open_sinks(sinks, laid.kind, laid.skin.side));
+    add(part, on_bosses(holes));
     add(part, on_blind_holes(blind_holes(part.mesh, sheet)));
     part.solid = origin_of(examined, plain, laid, holes);
     if (measured)
