@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/core.h>
 
 #include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/views/grid_shapes.h"
@@ -126,6 +127,53 @@ OverlapShape overlap_shape(const Overlap& overlap, const Eigen::Matrix3Xd& posit
     return made;
 }
 
+/// Where a press brake bends, as the drawing of the blank has it.
+LineList bend_lines(const BendTable& table)
+{
+    std::vector<Eigen::Vector2d> point;
+    for (const SheetBend& bend : table.bends)
+        for (const BlankSegment& piece : bend.line)
+            point.insert(point.end(), {piece.from, piece.to});
+    LineList result;
+    if (point.empty())
+        return result;
+    Eigen::Matrix3Xd place = Eigen::Matrix3Xd::Zero(3, Eigen::Index(point.size()));
+    Eigen::Matrix2Xi ends(2, place.cols() / 2);
+    for (Eigen::Index i = 0; i < place.cols(); ++i) {
+        place.col(i).head<2>() = point[size_t(i)];
+        ends(i % 2, i / 2) = int(i);
+    }
+    for (const auto& [colour, width] : {std::pair(palette::bend_ground, 4.f), {palette::bend, 1.6f}}) {
+        const auto lines = scene_lines(place, ends);
+        lines->colour = colour;
+        lines->width = width;
+        lines->on_top = true;
+        result.push_back(lines);
+    }
+    return result;
+}
+
+/// The numbers of the table's rows, each in the middle of its line.
+void add_bends(Scene& scene, const ViewerState& state, SceneCache& cache)
+{
+    const std::shared_ptr<const BendTable>& table = state.document.session.bends;
+    if (!table || table->bends.empty())
+        return;
+    const LineList& lines = cache.bends.of({table}, [&] { return bend_lines(*table); });
+    scene.lines.insert(scene.lines.end(), lines.begin(), lines.end());
+    constexpr size_t most = 6; // more of them have no room for which way they go
+    const bool few = table->bends.size() <= most;
+    for (size_t b = 0; b < table->bends.size(); ++b)
+        if (const SheetBend& bend = table->bends[b]; !bend.line.empty()) {
+            const BlankSegment& middle = bend.line[bend.line.size() / 2];
+            Eigen::Vector3d place = Eigen::Vector3d::Zero();
+            place.head<2>() = (middle.from + middle.to) / 2;
+            const std::string number = fmt::format("{}", b + 1);
+            scene.labels.push_back({place, few ? number + (bend.up ? ", up" : ", down") : "b" + number,
+                                    palette::text(state.view.dark), LabelKind::region});
+        }
+}
+
 } // namespace
 
 Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
@@ -182,6 +230,7 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
               cache.on_blank, cache);
     if (live)
         return result;
+    add_bends(result, state, cache);
     const Overlap& overlap = session.blank->overlap;
     if (const OverlapShape& shown =
             cache.overlap.of({session.blank}, [&] { return overlap_shape(overlap, flat.position); });

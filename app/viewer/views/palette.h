@@ -16,6 +16,7 @@ inline constexpr Colour squeezed{0.07f, 0.27f, 0.72f, 1};  ///< negative
 inline constexpr Colour corner{0.98f, 0.98f, 0.98f, 1};
 inline constexpr Colour drawbead{0.98f, 0.55f, 0.12f, 1};
 inline constexpr Colour pilot{0.20f, 0.80f, 0.88f, 1};
+inline constexpr Colour bend{0.04f, 0.05f, 0.07f, 1}, bend_ground{1, 1, 1, 0.8f}; ///< lines of bends on the blank
 inline constexpr Colour folded{0.90f, 0.12f, 0.16f, 1};
 inline constexpr Colour fixed{0.97f, 0.78f, 0.10f, 1};  ///< faces that carry what a step moves
 inline constexpr Colour freed{0.20f, 0.72f, 0.32f, 1};  ///< faces that a step moves

@@ -156,6 +156,7 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const Differences>> reference_outline;
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;
     Memo<OverlapShape, Blank> overlap;
+    Memo<LineList, std::shared_ptr<const BendTable>> bends;
     Memo<StageShape, Grid, bool> planar_grid;
     Memo<StageShape, Grid, Lifted, bool> quads;
     Memo<LineList, Part> boundary_on_quads;

@@ -282,6 +282,28 @@ TEST_F(Scenes, WhileAJobLaysTheBlankOutItsShapeSoFarIsShownWithoutAField)
     EXPECT_TRUE(blank_scene(state, cache).layers[0].field);
 }
 
+TEST_F(Scenes, TheBlankHasTheLineOfEachBendAndItsNumber)
+{
+    state.document.display.extremes = false;
+    const size_t lines = blank_scene(state, cache).lines.size(), labels = blank_scene(state, cache).labels.size();
+    BendTable table;
+    for (const double x : {10., 20., 30.}) {
+        SheetBend bend;
+        bend.up = x < 25;
+        bend.line = {{{x, 0}, {x, 40}}};
+        table.bends.push_back(bend);
+    }
+    state.document.session.bends = std::make_shared<BendTable>(table);
+    const Scene shown = blank_scene(state, cache);
+    ASSERT_EQ(shown.lines.size(), lines + 2) << "dark on a light ground";
+    ASSERT_EQ(shown.labels.size(), labels + 3);
+    for (const auto& [text, x] : {std::pair("1, up", 10.), {"2, up", 20.}, {"3, down", 30.}}) {
+        const auto label = std::ranges::find(shown.labels, text, &SceneLabel::text);
+        ASSERT_NE(label, shown.labels.end()) << text;
+        EXPECT_LT((label->place - Eigen::Vector3d(x, 20, 0)).norm(), 1e-9);
+    }
+}
+
 /// Places of the labels 1 to 4.
 std::vector<Eigen::Vector3d> corners_of(const Scene& shown)
 {

@@ -175,7 +175,8 @@ struct ViewerModel::Apply {
     void operator()(const HideSpot&);
     void operator()(const FlyToVertex& action);
     /// Every view shows the middle of some vertices of the part.
-    void look_at(const std::vector<int>& vertices);
+    /// @param at_least  mm, what the views show
+    void look_at(const std::vector<int>& vertices, double at_least = 0);
     void operator()(const ShowFault& action);
     void operator()(const HideFault&) { state.fault.reset(); }
     void operator()(const ShowRefused&);

@@ -1,5 +1,6 @@
 #include "app/viewer/model/actions/apply.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <fmt/core.h>
 
@@ -9,6 +10,26 @@
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
+namespace {
+
+/// mm, that shows all of the bend that a face is in; 0: it is in none.
+double bend_around(const Session& session, int face)
+{
+    if (!session.bends)
+        return 0;
+    const auto bend = std::ranges::find_if(
+        session.bends->bends, [&](const SheetBend& each) { return std::ranges::binary_search(each.faces, face); });
+    if (bend == session.bends->bends.end())
+        return 0;
+    Eigen::AlignedBox3d box;
+    for (const int f : bend->faces)
+        for (const int v : session.part->mesh.triangle.col(f))
+            box.extend(session.part->mesh.position.col(v));
+    constexpr double room = 1.3;
+    return room * box.diagonal().norm();
+}
+
+} // namespace
 
 void ViewerModel::Apply::operator()(const SetDisplay& action)
 {
@@ -57,7 +78,7 @@ void ViewerModel::Apply::operator()(const FlyTo& action)
     // From spot to spot the way back leads to where the first one was left.
     const bool on_the_way = state.spot && state.spot->since == state.view.camera;
     ShownSpot spot{action.face, on_the_way ? state.spot->before : state.view.camera, {}, session.part};
-    look_at({t[0], t[1], t[2]});
+    look_at({t[0], t[1], t[2]}, bend_around(session, action.face));
     spot.since = state.view.camera;
     state.spot = std::move(spot);
 }
@@ -78,7 +99,7 @@ void ViewerModel::Apply::operator()(const FlyToVertex& action)
     look_at({action.vertex});
 }
 
-void ViewerModel::Apply::look_at(const std::vector<int>& vertices)
+void ViewerModel::Apply::look_at(const std::vector<int>& vertices, double at_least)
 {
     const TriMesh& mesh = part().mesh;
     const auto middle = [&](const auto& position) {
@@ -87,7 +108,8 @@ void ViewerModel::Apply::look_at(const std::vector<int>& vertices)
             sum.head(position.rows()) += position.col(v) / double(vertices.size());
         return glm::dvec3(sum[0], sum[1], sum[2]);
     };
-    const double size = 0.15 * (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm();
+    const double size =
+        std::max(at_least, 0.15 * (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm());
     for (const View view : all_views) {
         if (view == View::blank && !session.blank)
             continue;

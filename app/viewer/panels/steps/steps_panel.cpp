@@ -51,7 +51,7 @@ void part_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     step_heading(frame, 1, "Part",
-                 frame.state.refused && !frame.state.refused_file
+                 frame.state.refused && (!frame.state.refused_file || shows_refused(frame.state))
                      ? Status::failed
                      : light(frame, ChainStep::part, status(frame, Stage::read, session.part != nullptr)));
     if (ImGui::Button("Open..."))
