@@ -9,6 +9,7 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/curved_faces.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/json/report_json.h"
 
@@ -86,7 +87,7 @@ int info(const InfoArguments& arguments)
     if (doctor.healthy()) {
         const Eigen::Vector3d size = part_figures(part).size;
         say("part            {}, {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm2\n",
-            counted(part.mesh.triangles(), "triangle", "triangles"), size[0], size[1], size[2], area(part.mesh));
+            counted(part.mesh.triangles(), "triangle", "triangles"), size[0], size[1], size[2], sheet_area(part));
     }
     for (const std::string& note : part.notes)
         say("note            {}\n", note);

@@ -11,9 +11,11 @@
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/exchange/mesh/mesh_file.h"
 #include "engine/options/part_options.h"
+#include "engine/part/curved_faces.h"
 #include "engine/part/prepare_part.h"
 #include "engine/part/remesh_needles.h"
 #include "engine/part/remesh_part.h"
+#include "engine/part/round_rims.h"
 
 namespace spia {
 namespace {
@@ -91,8 +93,10 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         part.unit = options.unit.value_or(LengthUnit::mm);
         const CornerNormals normals(cad.soup, cad.normal);
         part = prepare_part(std::move(part), cad.soup, options, true, cad.solid, &normals, progress.part(0.8, 1));
+        part.corner_normal = corner_normals(part, cad.soup, normals);
         part.cad->curves = cad.curves;
         part.cad->curves.renumber(part.same_as);
+        round_rims(part);
         report_cad(cad, part);
         return part;
     }

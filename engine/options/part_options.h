@@ -42,7 +42,8 @@ inline constexpr Option deflection{
     .place = "\"Import options...\""};
 inline constexpr Option chord_angle{.name = "angle",
                                     .value = "DEG",
-                                    .help = "of a CAD file: between the tangents at both ends of a chord (default 20)"};
+                                    .help = "of a CAD file: between the tangents at both ends of a chord (default: 20, "
+                                            "of conical sheet and long borders that are no arcs 2)"};
 inline constexpr Option skip_bad_faces{
     .name = "skip-bad-faces",
     .key = "leave_out_bad_faces",

@@ -10,7 +10,9 @@ struct CadOptions {
     /// mm between triangle and face; not given: 1/2000 of the diagonal of a box around faces and
     /// control points
     std::optional<double> deflection = {};
-    double angle = 0.35; ///< radians between the tangents at both ends of a chord
+    /// radians between the tangents at both ends of a chord; not given: as the faces ask
+    /// (usual_chords())
+    std::optional<double> angle = {};
     /// faces that cannot be read or meshed are left out, and the report names them; else the part
     /// is refused for them
     bool leave_out_unmeshed = false;

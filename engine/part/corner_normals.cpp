@@ -15,10 +15,17 @@ Eigen::Vector3d CornerNormals::at(int triangle, const Eigen::Vector3d& place, co
             least = way;
             nearest = k;
         }
-    const Eigen::Vector3d normal = normal_[size_t(triangle)][nearest].cast<double>().normalized();
+    return at_corner(triangle, int(nearest), own).value_or(own);
+}
+
+std::optional<Eigen::Vector3d> CornerNormals::at_corner(int triangle, int corner, const Eigen::Vector3d& own) const
+{
+    const Eigen::Vector3d normal = normal_[size_t(triangle)][size_t(corner)].cast<double>().normalized();
     constexpr double askew = 0.2; // 78 degrees
     const double along = normal.dot(own);
-    return std::abs(along) > askew ? Eigen::Vector3d(along > 0 ? normal : -normal) : own;
+    if (!(std::abs(along) > askew))
+        return std::nullopt;
+    return along > 0 ? normal : Eigen::Vector3d(-normal);
 }
 
 } // namespace spia

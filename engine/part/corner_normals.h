@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/mesh/soup.h"
@@ -20,6 +21,9 @@ public:
     /// normal. `own` itself where the face has none, or is so much askew that the triangle has
     /// hardly a side.
     Eigen::Vector3d at(int triangle, const Eigen::Vector3d& place, const Eigen::Vector3d& own) const;
+
+    /// Of a corner, likewise; nothing in these cases.
+    std::optional<Eigen::Vector3d> at_corner(int triangle, int corner, const Eigen::Vector3d& own) const;
 
 private:
     const PolygonSoup& soup_;

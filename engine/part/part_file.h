@@ -105,8 +105,10 @@ struct PartFile {
     std::optional<DeckOrigin> deck = {};     ///< of solver decks
     std::optional<CadOrigin> cad = {};       ///< of CAD files
     std::optional<SolidOrigin> solid = {};   ///< of solids of sheet
-    std::optional<Remeshed> remeshed = {};   ///< if it was asked for: mesh, source_vertex and
-                                             ///< source_face are new
+    /// per triangle, of CAD files: corner_normals(); empty: none are known
+    std::vector<Eigen::Matrix3f> corner_normal = {};
+    std::optional<Remeshed> remeshed = {}; ///< if it was asked for: mesh, source_vertex and
+                                           ///< source_face are new
 };
 
 /// What is told of a part, beside what the doctor finds.

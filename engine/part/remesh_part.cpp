@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/curved_faces.h"
 #include "engine/part/part_file.h"
 #include "engine/unfold/plan/bend_zones.h"
 #include "engine/unfold/plan/free_ends.h"
@@ -105,6 +106,8 @@ PartFile remesh_part(PartFile part, const RemeshOptions& options, const Progress
     part.source_vertex = named(result.nearest_vertex, remeshed.original_vertex);
     part.source_face = named(result.nearest_face, remeshed.original_face);
     remeshed.original = std::make_shared<TriMesh>(std::exchange(part.mesh, std::move(result.mesh)));
+    if (!part.corner_normal.empty())
+        onto_faces(part);
     if (part.cad)
         number_anew(part);
     std::erase_if(part.doctor.findings,

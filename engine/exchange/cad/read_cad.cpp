@@ -15,6 +15,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/cad/cad_bytes.h"
+#include "engine/exchange/cad/cad_chords.h"
 #include "engine/exchange/cad/cad_mesh.h"
 #include "engine/exchange/cad/cad_sewing.h"
 #include "engine/exchange/cad/cad_shape.h"
@@ -38,7 +39,7 @@ void require_options(const CadOptions& options)
         throw InputError("the sewing tolerance must be a length in mm, or 0 to leave the faces as they are");
     if (options.deflection && !(*options.deflection > 0 && std::isfinite(*options.deflection)))
         throw InputError("the deflection must be a length in mm above 0");
-    if (!(options.angle >= 0.01 && options.angle <= 1.6))
+    if (options.angle && !(*options.angle >= 0.01 && *options.angle <= 1.6))
         throw InputError(
             "the angle between chord ends must be from 0.01 to 1.6 radians, that is from 0.58 to 91 degrees");
 }
@@ -124,7 +125,6 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
 
     const double diagonal = diagonal_of(compound_of(taken));
     require_sense(options, diagonal);
-    result.deflection = options.deflection.value_or(diagonal / 2000);
     SewnFaces sewn = sew(taken, options.sewing_tolerance, diagonal, progress.part(0, 0.5));
     result.sewing_tolerance = sewn.tolerance;
     result.shortest_edge = sewn.shortest_edge;
@@ -136,7 +136,10 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
         gap.face = {number_of(gap.face[0]), number_of(gap.face[1])};
         result.gaps.push_back(gap);
     }
-    FaceTriangles mesh = mesh_faces(sewn.face, result.deflection, options.angle, progress.part(0.5, 0.95));
+    const Chords usual = usual_chords(sewn.face, diagonal);
+    result.deflection = options.deflection.value_or(usual.deflection);
+    FaceTriangles mesh =
+        mesh_faces(sewn.face, result.deflection, options.angle.value_or(usual.angle), progress.part(0.5, 0.95));
     progress.checkpoint(0.95, "looking for overlapping faces");
     result.soup = std::move(mesh.soup);
     result.normal = std::move(mesh.normal);

@@ -74,6 +74,7 @@ public:
           walls_(solid, sheet, surface, done), neighbour_(face_neighbours(outer.triangles(), edge_uses(outer.triangle)))
     {
         facing_ = area_vectors(outer);
+        area_ = facing_.colwise().norm().sum();
     }
 
     /// Vertices where one cylinder cuts one plane or cylinder, or ends at a wall that it is tangent to.
@@ -157,6 +158,7 @@ private:
     BorderWalls walls_;
     Eigen::Matrix3Xi neighbour_;
     Eigen::Matrix3Xd facing_;
+    double area_; ///< mm2
     std::vector<Eigen::Vector3d> new_outer_, new_middle_;
     std::vector<int> new_source_;
 
@@ -254,7 +256,8 @@ private:
         const auto cut_outer = walls_.around(cut.of, outer.col(a), outer.col(b)); // wider where it is chamfered
         if (!cut_outer)
             return {};
-        constexpr double finest = 3 * std::numbers::pi / 180, most = std::numbers::pi / 2;
+        constexpr double most = std::numbers::pi / 2;
+        const double finest = fine_turn(surface_[size_t(rim)].radius, area_);
         const double angle = turn(cut, at_a->second, middle.col(a), middle.col(b));
         const int pieces = int(std::ceil(angle / finest - 1e-6));
         if (pieces < 2 || angle > most)
@@ -331,6 +334,12 @@ TriMesh outer_below(const SkinMesh& middle, const TriMesh& solid, double thickne
 }
 
 } // namespace
+
+double fine_turn(double radius, double area)
+{
+    constexpr double most = 3 * std::numbers::pi / 180, least = most / 6, nothing = 5e-5;
+    return std::clamp(std::sqrt(6 * nothing * area / std::numbers::pi) / radius, least, most);
+}
 
 int round_border(SkinMesh& middle, const TriMesh& solid, const ThinSolid& sheet,
                  const std::vector<StatedSurface>& surface, const std::vector<int>& done)

@@ -9,6 +9,7 @@
 #include "engine/core/file_content.h"
 #include "engine/core/text.h"
 #include "engine/options/sheet_options.h"
+#include "engine/part/curved_faces.h"
 #include "engine/unfold/step/relaid_blank.h"
 #include "engine/unfold/step/upright.h"
 
@@ -66,6 +67,26 @@ std::vector<BendZone> zones_of(const PartFile& part)
     return part.solid && !part.solid->surface.empty() ? with_measured(part, std::move(zones)) : zones;
 }
 
+/// Those of faces that have none yet.
+void add_missing(LaidLengths& laid, const LaidLengths& more)
+{
+    LaidLengths all;
+    size_t i = 0;
+    const auto take = [&](const LaidLengths& from, size_t at) {
+        all.face.push_back(from.face[at]);
+        all.corner.push_back(from.corner[at]);
+    };
+    for (size_t k = 0; k < more.face.size(); ++k) {
+        for (; i < laid.face.size() && laid.face[i] < more.face[k]; ++i)
+            take(laid, i);
+        if (i == laid.face.size() || laid.face[i] != more.face[k])
+            take(more, k);
+    }
+    for (; i < laid.face.size(); ++i)
+        take(laid, i);
+    laid = std::move(all);
+}
+
 } // namespace
 
 NeutralFibre part_bends(const PartFile& part, double thickness, const std::optional<KFactor>& k)
@@ -78,6 +99,7 @@ NeutralFibre part_bends(const PartFile& part, double thickness, const std::optio
                        "the mesh has them; a K factor, also 0.5, lays arcs in their place (" +
                            mention(option::k_factor) + ")",
                        "give a K factor (" + mention(option::k_factor) + ")");
+    add_missing(fibre.laid, lengths_on_faces(part));
     return fibre;
 }
 

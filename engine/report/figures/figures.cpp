@@ -6,6 +6,7 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/flat/outline.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/curved_faces.h"
 #include "engine/report/figures/face_values.h"
 
 namespace spia {
@@ -31,10 +32,16 @@ PartFigures part_figures(const PartFile& part)
     const Eigen::Matrix3Xd& position = part.mesh.position;
     if (position.cols() == 0)
         return {};
-    return {position.rowwise().maxCoeff() - position.rowwise().minCoeff(), bounding_diagonal(part.mesh)};
+    const Eigen::Vector3d size = position.rowwise().maxCoeff() - position.rowwise().minCoeff();
+    constexpr double rounding = 1e-9; // of the diagonal: a flat part that is turned has no height
+    const double diagonal = bounding_diagonal(part.mesh);
+    return {(size.array() > rounding * diagonal).select(size, 0), diagonal};
 }
 
-SurfaceOfPart surface_of_part(const TriMesh& part) { return {int(boundary_loops(part).size()), area(part)}; }
+SurfaceOfPart surface_of_part(const PartFile& part)
+{
+    return {int(boundary_loops(part.mesh).size()), sheet_area(part)};
+}
 
 BlankSize blank_size(const TriMesh& part, const Blank& blank)
 {
@@ -112,7 +119,7 @@ ResultFigures result_figures(const Session& session)
 {
     const TriMesh& part = session.part->mesh;
     const Blank& blank = session.blank->blank;
-    ResultFigures figures{surface_of_part(part),
+    ResultFigures figures{surface_of_part(*session.part),
                           blank_size(part, blank),
                           sheet_figures(session.blank->face),
                           distortion(part, blank.position),

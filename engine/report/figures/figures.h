@@ -24,7 +24,7 @@ struct SurfaceOfPart {
     int boundary_loops = 0; ///< the outline and the holes
     double area = 0;        ///< mm2
 };
-SurfaceOfPart surface_of_part(const TriMesh& part);
+SurfaceOfPart surface_of_part(const PartFile& part);
 
 struct BlankSize {
     Eigen::Vector2d low{0, 0}, high{0, 0}; ///< mm, the box around it

@@ -11,6 +11,7 @@
 #include "engine/mesh/flat/distortion.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/command_line_json.h"
+#include "engine/part/curved_faces.h"
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/outputs/iga_outputs.h"
@@ -117,7 +118,7 @@ Json remeshed_json(const PartFile& part)
 
 Json part_json(const PartFile& part)
 {
-    const SurfaceOfPart sheet = surface_of_part(part.mesh);
+    const SurfaceOfPart sheet = surface_of_part(part);
     Json json = {{"vertices", part.mesh.vertices()},
                  {"triangles", part.mesh.triangles()},
                  {"boundary_loops", sheet.boundary_loops},
@@ -475,7 +476,7 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
         const Eigen::Vector3d low = part.mesh.position.rowwise().minCoeff(),
                               high = part.mesh.position.rowwise().maxCoeff();
         json["triangles"] = part.mesh.triangles();
-        json["area_mm2"] = area(part.mesh);
+        json["area_mm2"] = sheet_area(part);
         json["bounding_box_mm"] = {low[0], low[1], low[2], high[0], high[1], high[2]};
     }
     return with_command_line_texts(std::move(json)).dump(2) + "\n";

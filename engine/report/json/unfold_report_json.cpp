@@ -5,6 +5,7 @@
 #include "engine/core/vector_json.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/command_line_json.h"
+#include "engine/part/curved_faces.h"
 #include "engine/pipeline/files/target_json.h"
 #include "engine/pipeline/shortcomings/unfold_shortcomings.h"
 #include "engine/report/figures/figures.h"
@@ -118,7 +119,7 @@ std::string unfold_report_json(const std::filesystem::path& input, const PartFil
         {"schema", "spia.unfold-result/1"},
         {"input", input.string()},
         {"part",
-         {{"vertices", part.mesh.vertices()}, {"triangles", part.mesh.triangles()}, {"area_mm2", area(part.mesh)}}},
+         {{"vertices", part.mesh.vertices()}, {"triangles", part.mesh.triangles()}, {"area_mm2", sheet_area(part)}}},
         {"regions", found_regions_json(map)},
         {"bends", bends_json(map)},
         {"smoothed", map.smoothed},

@@ -6,11 +6,13 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepGProp.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRep_Tool.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -31,10 +33,30 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-TopoDS_Shape turned(const Profile& profile, double t)
+TopoDS_Shape turned(const Profile& profile, double t, double turn = 2 * std::numbers::pi)
 {
-    return BRepPrimAPI_MakeRevol(section_face(profile, t / 2, -t / 2), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
+    return BRepPrimAPI_MakeRevol(section_face(profile, t / 2, -t / 2), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), turn)
         .Shape();
+}
+
+/// mm2, of what a profile sweeps in a full turn. [Pappus]
+double swept_area(const Profile& profile)
+{
+    constexpr int steps = 200'000;
+    const double step = profile.length() / steps;
+    double sum = 0;
+    for (int k = 0; k < steps; ++k)
+        sum += profile.at((k + 0.5) * step).x();
+    return 2 * std::numbers::pi * sum * step;
+}
+
+/// mm2, of the middle of a sheet that is open where its walls are upright and has no hole: its curvature in sum is a
+/// full turn. [Steiner]
+double area_from_volume(const TopoDS_Shape& shape, double t)
+{
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(shape, properties);
+    return properties.Mass() / t - t * t / 12 * 2 * std::numbers::pi;
 }
 
 /// From the middle of the bottom outwards and up.
@@ -165,19 +187,37 @@ Box random_box(SeededRandom& random, int kind, double t)
 
 } // namespace
 
-std::string write_drawn_solid(const std::filesystem::path& file, std::uint64_t seed, CadForm form)
+double ConicalSheet::to() const { return from + length * std::cos(slope); }
+double ConicalSheet::middle_area() const { return turn * (from + to()) / 2 * length; }
+
+void write_conical_sheet(const std::filesystem::path& file, const ConicalSheet& sheet, CadForm form)
+{
+    const OcctSession session;
+    write_solid(file, turned(Profile({sheet.from, 0}, sheet.slope).straight(sheet.length), sheet.thickness, sheet.turn),
+                form);
+}
+
+DrawnSolid write_drawn_solid(const std::filesystem::path& file, std::uint64_t seed, CadForm form)
 {
     static const char* const kinds[] = {"cup",  "flanged cup", "stepped cup",    "cone",
                                         "dome", "box",         "box with draft", "box with a brim"};
     SeededRandom random(seed);
     const OcctSession session;
     const int kind = int(seed % 8);
-    const double t = 0.6 * std::pow(4., random.between(0, 1));
-    if (kind < 5)
-        write_solid(file, turned(round_section(random, kind, t), t), form);
-    else
-        write_solid(file, made(random_box(random, kind, t), t), form);
-    return fmt::format("{}, {:.3g} mm thick", kinds[kind], t);
+    DrawnSolid solid;
+    const double t = solid.thickness = 0.6 * std::pow(4., random.between(0, 1));
+    solid.kind = fmt::format("{} {}, {:.3g} mm thick", kinds[kind], seed, t);
+    if (kind < 5) {
+        const Profile profile = round_section(random, kind, t);
+        solid.middle_area = swept_area(profile);
+        write_solid(file, turned(profile, t), form);
+    } else {
+        const TopoDS_Shape shape = made(random_box(random, kind, t), t);
+        if (kind == 5)
+            solid.middle_area = area_from_volume(shape, t);
+        write_solid(file, shape, form);
+    }
+    return solid;
 }
 
 } // namespace spia::shapes

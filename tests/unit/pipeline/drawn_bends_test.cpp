@@ -61,7 +61,7 @@ class DrawnBends : public testing::TestWithParam<std::uint64_t> {
 protected:
     void expect_none(CadForm form)
     {
-        SCOPED_TRACE(write_drawn_solid(file_of(folder_, form), GetParam(), form));
+        SCOPED_TRACE(write_drawn_solid(file_of(folder_, form), GetParam(), form).kind);
         const Session session = solved(file_of(folder_, form));
         for (const SheetBend& bend : session.bends->bends)
             ADD_FAILURE() << "a row: R " << bend.inner_radius << ", " << bend.angle / degree << " degrees, "

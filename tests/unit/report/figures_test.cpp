@@ -68,7 +68,9 @@ TEST(Figures, OfARectangleWithAHoleAreThoseOfTheClosedForm)
     }
     part.triangle.conservativeResize(3, kept);
     const double area = 400 * 200 - 80 * 40;
-    const SurfaceOfPart sheet = surface_of_part(part);
+    PartFile file;
+    file.mesh = part;
+    const SurfaceOfPart sheet = surface_of_part(file);
     EXPECT_EQ(sheet.boundary_loops, 2);
     EXPECT_NEAR(sheet.area, area, 1e-9 * area);
     Blank blank{part.position.topRows(2)};
