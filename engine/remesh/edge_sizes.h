@@ -13,7 +13,7 @@ struct SizeLimits {
     double most;          ///< mm, edge length where nothing asks for a shorter one
     double least;         ///< mm; nothing asks for less
     double sagitta;       ///< mm, between a chord of that length and the surface or line; of the
-                          ///< boundary border_share of it
+                          ///< boundary border_share of it where that bends within the sheet
     double growth = 0.35; ///< of the length per mm of way
 };
 

@@ -50,22 +50,14 @@ Areas areas_of(std::span<const TopoDS_Face> faces)
     return areas;
 }
 
-bool curves_twice(std::span<const TopoDS_Face> faces)
-{
-    const Areas areas = areas_of(faces);
-    return areas.curved_twice > next_to_nothing * areas.all;
-}
+bool curves_twice(const Areas& areas) { return areas.curved_twice > next_to_nothing * areas.all; }
 
 /// Sheet that is rolled to a cone, not drawn to one with radii beside it; what is sunk into holes is conical, too, but
 /// small.
-bool is_conical(std::span<const TopoDS_Face> faces)
+bool is_conical(const Areas& areas)
 {
     constexpr double large = 0.05; // of the area of all faces
-    if (std::ranges::none_of(
-            faces, [](const TopoDS_Face& face) { return BRepAdaptor_Surface(face, false).GetType() == GeomAbs_Cone; }))
-        return false;
-    const Areas areas = areas_of(faces);
-    return areas.largest_cone > large * areas.all && areas.curved_twice < next_to_nothing * areas.all;
+    return areas.largest_cone > large * areas.all && !curves_twice(areas);
 }
 
 /// Of a face in the middle of an edge; zero where none is told.
@@ -83,14 +75,15 @@ gp_Vec normal_at(const TopoDS_Edge& edge, const TopoDS_Face& face)
     return normal.Magnitude() > 0 ? normal.Normalized() : gp_Vec{};
 }
 
-/// Of a plane face, with a wall square to it: other walls are put right after the outline.
+/// Whether a plane face has a long one that is no line and no circle, with a wall square to it: where
+/// other walls cut the sheet the border is put right later (onto_projection()).
 bool has_free_border(std::span<const TopoDS_Face> faces, double diagonal)
 {
     constexpr double longest = 0.25, square = 0.02; // of the diagonal; sine of 1 degree
     TopTools_IndexedDataMapOfShapeListOfShape faces_at;
     for (const TopoDS_Face& face : faces)
         TopExp::MapShapesAndUniqueAncestors(face, TopAbs_EDGE, TopAbs_FACE, faces_at);
-    const auto is_round = [](const TopoDS_Face& face) {
+    const auto is_elementary = [](const TopoDS_Face& face) {
         const auto kind = BRepAdaptor_Surface(face, false).GetType();
         return kind == GeomAbs_Plane || kind == GeomAbs_Cylinder || kind == GeomAbs_Cone;
     };
@@ -103,7 +96,7 @@ bool has_free_border(std::span<const TopoDS_Face> faces, double diagonal)
         const bool plane = BRepAdaptor_Surface(one, false).GetType() == GeomAbs_Plane ||
                            BRepAdaptor_Surface(other, false).GetType() == GeomAbs_Plane;
         const bool walled = sides.Extent() == 2; // else the border of a sheet without thickness
-        if (!plane || (walled && is_round(one) && is_round(other)) ||
+        if (!plane || (walled && is_elementary(one) && is_elementary(other)) ||
             (walled && !(std::abs(normal_at(edge, one).Dot(normal_at(edge, other))) < square)))
             continue;
         Bnd_Box box;
@@ -123,9 +116,14 @@ Chords usual_chords(std::span<const TopoDS_Face> faces, double diagonal)
     constexpr double drawn = 0.005;                     // mm, half of what drawings of outlines are within
     try {
         const bool free = has_free_border(faces, diagonal);
-        if (!free && !is_conical(faces))
+        const bool cones = std::ranges::any_of(
+            faces, [](const TopoDS_Face& face) { return BRepAdaptor_Surface(face, false).GetType() == GeomAbs_Cone; });
+        if (!free && !cones)
             return usual;
-        return {free && !curves_twice(faces) ? std::min(usual.deflection, drawn) : usual.deflection, fine};
+        const Areas areas = areas_of(faces);
+        if (!free && !is_conical(areas))
+            return usual;
+        return {free && !curves_twice(areas) ? std::min(usual.deflection, drawn) : usual.deflection, fine};
     } catch (const Standard_Failure&) { // of a damaged face: the reader says so elsewhere
         return usual;
     }

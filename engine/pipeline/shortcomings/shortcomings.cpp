@@ -63,7 +63,7 @@ std::vector<std::string> other_thickness(const PartFile& part, double thickness)
                         *part.thickness_mm, thickness, *part.thickness_mm)};
 }
 
-/// One step strains what is only bent where it is joined; so do steps that have not been laid anew.
+/// What is only bent is strained where it is joined.
 std::vector<std::string> closed_corners(const PartFile& part)
 {
     const Finding* corners = part.doctor.find(Fault::closed_corner);
