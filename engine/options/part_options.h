@@ -37,7 +37,7 @@ inline constexpr Option deflection{
     .value = "MM",
     .range = chord_height,
     .help = "of a CAD file: distance between triangles and faces (default: 1/2000 of the diagonal of a box around the "
-            "faces and their control points)",
+            "faces and their control points, 0.005 of long borders that are no arcs)",
     .label = "Chord height",
     .place = "\"Import options...\""};
 inline constexpr Option chord_angle{.name = "angle",

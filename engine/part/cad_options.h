@@ -8,7 +8,7 @@ struct CadOptions {
     std::optional<double> sewing_tolerance = {}; ///< mm, gaps up to this are closed; not given:
                                                  ///< found from the gaps; 0: the faces are not sewn
     /// mm between triangle and face; not given: 1/2000 of the diagonal of a box around faces and
-    /// control points
+    /// control points, less where the faces ask for it (usual_chords())
     std::optional<double> deflection = {};
     /// radians between the tangents at both ends of a chord; not given: as the faces ask
     /// (usual_chords())
