@@ -1,8 +1,9 @@
 #include "engine/coons/element_energy.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+
+#include "engine/core/small_dense.h"
 
 namespace spia {
 
@@ -38,8 +39,7 @@ void ElementEnergy::derivatives(const Jacobian& J, Eigen::Vector4d& gradient, Ei
     hessian(3, 0) += phi_D;
     hessian(1, 2) -= phi_D;
     hessian(2, 1) -= phi_D;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(hessian);
-    hessian = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+    hessian = with_least_eigenvalue(hessian, 0);
 }
 
 } // namespace spia

@@ -1,6 +1,7 @@
 #include "engine/nurbs/anderson_mixing.h"
 
-#include <Eigen/QR>
+#include "engine/core/small_dense.h"
+
 
 namespace spia {
 
@@ -22,7 +23,7 @@ Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::Vect
     Eigen::MatrixXd steps(x.size(), Eigen::Index(change_step_.size()));
     for (size_t k = 0; k < change_step_.size(); ++k)
         steps.col(Eigen::Index(k)) = change_step_[k];
-    const Eigen::VectorXd factor = steps.colPivHouseholderQr().solve(change);
+    const Eigen::VectorXd factor = least_squares(steps, change);
     Eigen::VectorXd result = image;
     for (size_t k = 0; k < image_step_.size(); ++k)
         result -= factor[Eigen::Index(k)] * image_step_[k];

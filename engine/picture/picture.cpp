@@ -1,6 +1,5 @@
 #include "engine/picture/picture.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/colour_map.h"
+#include "engine/core/small_dense.h"
 #include "engine/core/text.h"
 #include "engine/mesh/doctor/doctor.h"
 #include "engine/mesh/topology.h"
@@ -32,9 +32,9 @@ Vector3d long_axis(const Matrix3Xd& points, const Vector3d& up)
 {
     const Matrix3Xd centred = points.colwise() - points.rowwise().mean();
     const Matrix3d across = Matrix3d::Identity() - up * up.transpose();
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> spread(across * (centred * centred.transpose()) * across);
-    Vector3d axis = spread.eigenvectors().col(2);
-    if (spread.eigenvalues()[2] < 1.2 * spread.eigenvalues()[1])
+    const EigenPairs<3> spread = eigen_pairs(across * (centred * centred.transpose()) * across);
+    Vector3d axis = spread.vector.col(2);
+    if (spread.value[2] < 1.2 * spread.value[1])
         axis = (across * (std::abs(up.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY())).normalized();
     Eigen::Index largest;
     axis.cwiseAbs().maxCoeff(&largest);

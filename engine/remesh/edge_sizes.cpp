@@ -1,6 +1,5 @@
 #include "engine/remesh/edge_sizes.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/small_dense.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/edge_graph.h"
 #include "engine/mesh/topology.h"
@@ -66,11 +66,7 @@ Eigen::VectorXd curvature(const TriMesh& mesh, const EdgeGraph& graph, const std
     Eigen::VectorXd result = Eigen::VectorXd::Zero(mesh.vertices());
     for (int v = 0; v < mesh.vertices(); ++v)
         if (area[v] > 0)
-            result[v] =
-                Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(bent[size_t(v)] / area[v], Eigen::EigenvaluesOnly)
-                    .eigenvalues()
-                    .cwiseAbs()
-                    .maxCoeff();
+            result[v] = eigen_pairs(bent[size_t(v)] / area[v]).value.cwiseAbs().maxCoeff();
     return result;
 }
 

@@ -1,12 +1,12 @@
 #include "engine/exchange/deck/original_results.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/core/small_dense.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/edge_graph.h"
@@ -111,12 +111,12 @@ void carry_to_face(const Matrix3d& triangle, int f, int n, const ClosestPointSea
         necking = std::max(necking, from.necking[g]);
     });
     const double places = double(n) * n;
-    const Eigen::SelfAdjointEigenSolver<Matrix2d> principal(strain / places);
-    const Vector2d major = principal.eigenvectors().col(1), minor = principal.eigenvectors().col(0);
+    const EigenPairs<2> principal = eigen_pairs(strain / places);
+    const Vector2d major = principal.vector.col(1), minor = principal.vector.col(0);
     to.thickness[f] = thickness / places;
     to.thinning[f] = thinning / places;
-    to.strain_major[f] = principal.eigenvalues()[1];
-    to.strain_minor[f] = principal.eigenvalues()[0];
+    to.strain_major[f] = principal.value[1];
+    to.strain_minor[f] = principal.value[0];
     to.strain_equivalent[f] = strain_equivalent / places;
     to.stress_major[f] = major.dot(stress * major) / places;
     to.stress_minor[f] = minor.dot(stress * minor) / places;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/core/small_dense.h"
+
 namespace spia {
 namespace {
 
@@ -33,7 +35,7 @@ Circle circle_through(const Eigen::Matrix2Xd& points)
     Eigen::MatrixX3d A(p.cols(), 3);
     A << (p / size).transpose(), Eigen::VectorXd::Ones(p.cols());
     const Eigen::VectorXd b = (p / size).colwise().squaredNorm().transpose();
-    const Eigen::Vector3d x = A.colPivHouseholderQr().solve(b);
+    const Eigen::Vector3d x = least_squares(A, b);
     const Eigen::Vector2d centre = x.head<2>() / 2;
     return {middle + size * centre, size * std::sqrt(std::max(x[2] + centre.squaredNorm(), 0.))};
 }

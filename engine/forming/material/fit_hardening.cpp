@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/LevenbergMarquardt>
 
 #include "engine/core/error.h"
+#include "engine/core/small_dense.h"
 
 namespace spia {
 namespace {
@@ -83,7 +84,7 @@ const std::vector<Family>& families()
 /// Least squares with coefficients >= 0 for one or two columns.
 VectorXd coefficients(const MatrixXd& columns, const VectorXd& stress)
 {
-    const VectorXd free = columns.colPivHouseholderQr().solve(stress);
+    const VectorXd free = least_squares(columns, stress);
     if (free.size() == 1 || (free.minCoeff() >= 0 && free.allFinite()))
         return free;
     VectorXd best;

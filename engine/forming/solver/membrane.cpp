@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/small_dense.h"
 #include "engine/forming/solver/log_quotient.h"
 
 namespace spia {
@@ -121,10 +122,8 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G, c
     H(2, 3) += 0.5 * (flip - twist) - shear * q * q * s[0] * s[1];
     H(3, 2) = H(2, 3);
     const double floor = 2e-8 * shear / (s[0] * s[0]);
-    if (Eigen::LLT<Eigen::Matrix4d>(H - floor * Eigen::Matrix4d::Identity()).info() != Eigen::Success) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(H);
-        H = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).asDiagonal() * modes.eigenvectors().transpose();
-    }
+    if (Eigen::LLT<Eigen::Matrix4d>(H - floor * Eigen::Matrix4d::Identity()).info() != Eigen::Success)
+        H = with_least_eigenvalue(H, floor);
     const Eigen::Matrix4d basis = singular_basis(d);
 
     EnergyDensity out;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "engine/core/parallel.h"
+#include "engine/core/small_dense.h"
 
 namespace spia {
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
@@ -58,8 +59,7 @@ SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element
         }
     node.direction_major.resize(3, n);
     for (int v = 0; v < n; ++v)
-        node.direction_major.col(v) =
-            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor[size_t(v)]).eigenvectors().col(2);
+        node.direction_major.col(v) = eigen_pairs(tensor[size_t(v)]).vector.col(2);
     return node;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/core/small_dense.h"
 
 namespace spia {
 namespace {
@@ -25,11 +26,11 @@ std::vector<std::vector<int>> stars(const TriMesh& part)
 Eigen::Matrix2d bent(const Eigen::Matrix2d& W, double z, bool& sharp)
 {
     constexpr double most = 0.5; // |z| is half the thickness
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> modes(W);
-    const Eigen::Vector2d stretch = z * modes.eigenvalues();
+    const EigenPairs<2> modes = eigen_pairs(W);
+    const Eigen::Vector2d stretch = z * modes.value;
     sharp |= stretch.cwiseAbs().maxCoeff() > most;
-    return modes.eigenvectors() * (1 + stretch.array().max(-most).min(most)).matrix().asDiagonal() *
-           modes.eigenvectors().transpose();
+    return modes.vector * (1 + stretch.array().max(-most).min(most)).matrix().asDiagonal() *
+           modes.vector.transpose();
 }
 
 } // namespace
@@ -58,7 +59,7 @@ std::vector<Eigen::Matrix2d> curvatures(const TriMesh& part, const std::vector<E
             A.row(i) *= weight;
             height[i] = weight * normal.dot(off);
         }
-        const Eigen::Matrix<double, 6, 1> fit = A.completeOrthogonalDecomposition().solve(height);
+        const Eigen::Matrix<double, 6, 1> fit = shortest_least_squares(A, height);
         W[size_t(f)] << -fit[0], -fit[1], -fit[1], -fit[2];
         W[size_t(f)] /= size;
     });
@@ -79,8 +80,7 @@ SkinStrains skin_strains(const TriMesh& part, const std::vector<Element>& elemen
     parallel_for(faces, [&](int f) {
         const Eigen::Matrix2d G = inverse_gradient(element[size_t(f)], corners(blank.position, part.triangle.col(f)));
         const double thickness = sheet.thickness[f] * G.determinant();
-        const Eigen::Vector2d principal =
-            Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(W[size_t(f)], Eigen::EigenvaluesOnly).eigenvalues();
+        const Eigen::Vector2d principal = eigen_pairs(W[size_t(f)]).value;
         out.curvature[f] = -principal[0] > principal[1] ? principal[0] : principal[1];
         bool sharp = false;
         for (const auto& [skin, z] : {std::pair(&out.outer, 0.5 * thickness), {&out.inner, -0.5 * thickness}}) {

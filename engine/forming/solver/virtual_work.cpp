@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/parallel.h"
+#include "engine/core/small_dense.h"
 #include "engine/forming/process/smallest_turn.h"
 #include "engine/mesh/topology.h"
 
@@ -14,8 +15,7 @@ namespace {
 /// The symmetric part with its negative eigenvalues left out.
 Eigen::Matrix2d definite(const Eigen::Matrix2d& K)
 {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> modes(0.5 * (K + K.transpose()));
-    return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() * modes.eigenvectors().transpose();
+    return with_least_eigenvalue(Eigen::Matrix2d(0.5 * (K + K.transpose())), 0);
 }
 
 /// Of symmetric K, with the eigenvalues by their size. [Cayley and Hamilton: |K| = (K^2 + |det K|)

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/small_dense.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/solid/cylinder_fit.h"
@@ -21,8 +22,7 @@ constexpr double same = 1e-3,
 std::optional<RoundEdge> circle_of(const Eigen::Matrix3Xd& places, double within)
 {
     const Eigen::Matrix3Xd from = places.colwise() - Eigen::Vector3d(places.rowwise().mean());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(from * from.transpose());
-    return round_edge(places, spread.eigenvectors().col(0), within);
+    return round_edge(places, eigen_pairs(from * from.transpose()).vector.col(0), within);
 }
 
 } // namespace

@@ -1,10 +1,11 @@
 #include "engine/mesh/solid/cylinder_fit.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "engine/core/small_dense.h"
 
 namespace spia {
 namespace {
@@ -19,9 +20,8 @@ std::optional<Eigen::Vector3d> circle(const Eigen::Matrix2Xd& place)
         return std::nullopt;
     Eigen::MatrixX3d a(p.cols(), 3);
     a << p.transpose() / size, Eigen::VectorXd::Ones(p.cols());
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> qr(a);
     const Eigen::VectorXd right = p.colwise().squaredNorm().transpose() / (size * size);
-    const Eigen::Vector3d x = qr.solve(right);
+    const Eigen::Vector3d x = least_squares(a, right);
     const double square = x[2] + (x[0] * x[0] + x[1] * x[1]) / 4;
     if (!x.allFinite() || !(square > 0))
         return std::nullopt;
@@ -106,8 +106,8 @@ std::optional<FittedCylinder> fitted(const FittedCylinder& from, const Eigen::Ma
         slope.leftCols(2) = -out.transpose();
         slope.middleCols(2, 2) = -(out.array().rowwise() * (along / size).array()).matrix().transpose();
         slope.col(4).setConstant(-1);
-        const Eigen::VectorXd way = slope.completeOrthogonalDecomposition().solve(
-            -(distance - shift).array().matrix() + Eigen::VectorXd::Constant(place.cols(), at.radius));
+        const Eigen::VectorXd way = shortest_least_squares(
+            slope, -(distance - shift).array().matrix() + Eigen::VectorXd::Constant(place.cols(), at.radius));
         at.point += frame * way.head<2>();
         at.axis = (at.axis + frame * way.segment<2>(2) / size).normalized();
         at.radius += way[4];

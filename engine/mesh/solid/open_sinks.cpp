@@ -1,12 +1,12 @@
 #include "engine/mesh/solid/open_sinks.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "engine/core/small_dense.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/solid/open_counterbores.h"
 #include "engine/mesh/solid/plane_regions.h"
@@ -179,8 +179,7 @@ private:
         const Eigen::RowVectorXd size = normal_(Eigen::all, face).colwise().norm();
         const Eigen::Vector3d mean = n * size.transpose() / size.sum();
         const Eigen::Matrix3Xd from = n.colwise() - mean;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(from * size.asDiagonal() * from.transpose());
-        const Eigen::Vector3d axis = spread.eigenvectors().col(0);
+        const Eigen::Vector3d axis = eigen_pairs(from * size.asDiagonal() * from.transpose()).vector.col(0);
         const Eigen::RowVectorXd off = (axis.transpose() * from).cwiseAbs();
         n -= axis * (axis.transpose() * n);
         return {axis, mean.dot(axis), (off.array() > same_lean).select(size, 0).sum() < slivers * size.sum(),

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/core/small_dense.h"
+
 namespace spia {
 
 bool RoundEdge::surrounded(const Eigen::Matrix3Xd& places) const
@@ -38,7 +40,7 @@ std::optional<RoundEdge> round_edge(const Eigen::Matrix3Xd& places, const Eigen:
     a << 2 * (x.transpose() * from).transpose(), 2 * (y.transpose() * from).transpose(),
         Eigen::VectorXd::Ones(places.cols());
     const Eigen::VectorXd b = a.leftCols<2>().rowwise().squaredNorm() / 4;
-    const Eigen::Vector3d fit = a.colPivHouseholderQr().solve(b);
+    const Eigen::Vector3d fit = least_squares(a, b);
     circle.centre = mean + fit[0] * x + fit[1] * y;
     circle.radius = std::sqrt(std::max(fit[2] + fit.head<2>().squaredNorm(), 0.));
     for (Eigen::Index i = 0; i < places.cols(); ++i)

@@ -1,7 +1,6 @@
 #include "engine/mesh/solid/skin.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/place_text.h"
+#include "engine/core/small_dense.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/solid/flip_folds.h"
 #include "engine/mesh/solid/oblique_holes.h"
@@ -87,10 +87,8 @@ public:
             a.row(i) = (own - own.dot(n) * n).transpose();
             b[i] = move_[size_t(i) + (first ? 1 : 0)] - own.dot(start);
         }
-        Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
         constexpr double nearly_parallel = 0.2;
-        svd.setThreshold(nearly_parallel);
-        return start + svd.solve(b);
+        return start + shortest_least_squares(a, b, nearly_parallel);
     }
 
 private:

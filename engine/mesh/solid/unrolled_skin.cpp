@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/small_dense.h"
 #include "engine/mesh/solid/cylinder_fit.h"
 #include "engine/mesh/solid/off_axis.h"
 
@@ -19,11 +20,11 @@ std::optional<StatedSurface> cylinder_through(const Eigen::Matrix3Xd& points, co
 {
     // The normals of a cylinder are in a plane across its axis.
     constexpr double turns = 1e-3; // of the normals' squares: they turn by 2 degrees or so
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(normal * normal.colwise().normalized().transpose());
+    const EigenPairs<3> spread = eigen_pairs(normal * normal.colwise().normalized().transpose());
     constexpr Eigen::Index unknowns = 5;
-    if (points.cols() <= unknowns || spread.eigenvalues()[1] < turns * spread.eigenvalues()[2])
+    if (points.cols() <= unknowns || spread.value[1] < turns * spread.value[2])
         return std::nullopt;
-    const auto round = cylinder_along(spread.eigenvectors().col(0), points);
+    const auto round = cylinder_along(spread.vector.col(0), points);
     const auto fit = round ? fitted(*round, points, Eigen::VectorXd::Zero(points.cols())) : std::nullopt;
     if (!fit || !(fit->radius > within) || !(fit->off <= within))
         return std::nullopt;

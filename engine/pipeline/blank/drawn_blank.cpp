@@ -1,11 +1,11 @@
 #include "engine/pipeline/blank/drawn_blank.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
 
+#include "engine/core/small_dense.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/blank/blank_marks.h"
 #include "engine/pipeline/blank/parts_of_table.h"
@@ -47,7 +47,7 @@ bool straighten(const Bend& bend, std::vector<Eigen::Matrix2Xd>& lines)
     }
     const Eigen::Vector2d middle = all.rowwise().mean();
     const Eigen::Matrix2Xd arm = all.colwise() - middle;
-    const Eigen::Vector2d way = Eigen::JacobiSVD<Eigen::Matrix2Xd>(arm, Eigen::ComputeThinU).matrixU().col(0);
+    const Eigen::Vector2d way = longest_axis(arm);
     const Eigen::RowVectorXd off = way[0] * arm.row(1) - way[1] * arm.row(0), along = way.transpose() * arm;
     const double length = along.maxCoeff() - along.minCoeff(),
                  within = std::min(of_length * length,

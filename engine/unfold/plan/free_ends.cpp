@@ -1,6 +1,5 @@
 #include "engine/unfold/plan/free_ends.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <set>
 
 #include "engine/core/infinity.h"
+#include "engine/core/small_dense.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/segment_distance.h"
 #include "engine/mesh/topology.h"
@@ -50,7 +50,7 @@ Turning turning(const Eigen::Matrix3Xd& normal, const std::vector<int>& faces)
         whole += normal.col(f).norm();
         sum += normal.col(f) * normal.col(f).transpose() / normal.col(f).norm();
     }
-    Turning result{Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0), 0};
+    Turning result{eigen_pairs(sum).vector.col(0), 0};
     std::vector<std::pair<double, double>> off; // and the area
     for (const int f : faces)
         off.emplace_back(std::abs(result.axis.dot(normal.col(f).normalized())), normal.col(f).norm());
@@ -156,8 +156,7 @@ bool FreeEnds::of_fold(const BendMap& map, const Bend& bend) const
     const std::vector<int> vertex(on.begin(), on.end());
     const Eigen::Matrix3Xd place = part_.position(Eigen::all, vertex);
     const Eigen::Matrix3Xd arm = place.colwise() - place.rowwise().mean();
-    const Eigen::Vector3d way =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(arm * arm.transpose()).eigenvectors().col(2);
+    const Eigen::Vector3d way = eigen_pairs(arm * arm.transpose()).vector.col(2);
     const Eigen::RowVectorXd along = way.transpose() * arm;
     Eigen::Index first = 0, last = 0;
     const double length = along.maxCoeff(&last) - along.minCoeff(&first);

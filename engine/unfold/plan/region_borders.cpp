@@ -1,11 +1,11 @@
 #include "engine/unfold/plan/region_borders.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "engine/core/small_dense.h"
 #include "engine/unfold/plan/label_measures.h"
 
 namespace spia {
@@ -40,7 +40,7 @@ std::vector<double> off_plane(const TriMesh& part, const SheetTurns& turns, cons
                     const Eigen::Vector3d arm = part.position.col(v) - centre;
                     moments += turns.area[faces[k]] * arm * arm.transpose();
                 }
-        const Eigen::Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().col(0);
+        const Eigen::Vector3d normal = eigen_pairs(moments).vector.col(0);
         for (size_t k = 0; k < faces.size(); ++k) {
             off[k] = 0;
             for (const int v : part.triangle.col(faces[k]))

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
+#include "engine/core/small_dense.h"
 #include "engine/unfold/target/height_spline.h"
 
 namespace spia {
@@ -73,9 +74,7 @@ Region region_of(const TriMesh& part, const std::vector<int>& faces)
     Eigen::Matrix3Xd flat = at.colwise() - region.plane.origin;
     flat -= normal * (normal.transpose() * flat);
     const Eigen::Vector3d longest =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(flat * region.weight.asDiagonal() * flat.transpose())
-            .eigenvectors()
-            .col(2);
+        eigen_pairs(flat * region.weight.asDiagonal() * flat.transpose()).vector.col(2);
     const Eigen::Vector3d x = (longest - normal * normal.dot(longest)).normalized();
     region.plane.axes << x, normal.cross(x);
     return region;

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <functional>
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <unsupported/Eigen/NumericalDiff>
 
 #include "engine/core/error.h"
+#include "engine/core/small_dense.h"
 
 namespace spia {
 namespace {
@@ -63,7 +65,7 @@ Region region_of(const TriMesh& part, const std::vector<int>& faces)
 Eigen::Matrix3d normal_axes(const Region& region, const Eigen::Vector3d& about)
 {
     const Eigen::Matrix3Xd n = region.normal.colwise() - about;
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(n * region.area.asDiagonal() * n.transpose()).eigenvectors();
+    return eigen_pairs(n * region.area.asDiagonal() * n.transpose()).vector;
 }
 
 /// A direction near `axis`: turned by two small numbers.
@@ -75,7 +77,9 @@ Eigen::Vector3d leaned(const Eigen::Vector3d& axis, double a, double b)
 
 /// Least squares of the vertices' distances over a few numbers that begin at zero, in units of the
 /// region's size.
-template <class Make> struct Distances : Eigen::DenseFunctor<double> {
+struct Distances : Eigen::DenseFunctor<double> {
+    using Make = std::function<TargetSurface(const Eigen::VectorXd&)>;
+
     Distances(const Region& r, int numbers, const Make& m)
         : Eigen::DenseFunctor<double>(numbers, int(r.vertex.cols())), region(r), make(m)
     {
@@ -93,10 +97,10 @@ template <class Make> struct Distances : Eigen::DenseFunctor<double> {
     const Make& make;
 };
 
-template <class Make> TargetSurface refined(const Region& region, int numbers, const Make& make)
+TargetSurface refined(const Region& region, int numbers, const Distances::Make& make)
 {
-    using Functor = Eigen::NumericalDiff<Distances<Make>, Eigen::Central>;
-    Functor distances(Distances<Make>(region, numbers, make));
+    using Functor = Eigen::NumericalDiff<Distances, Eigen::Central>;
+    Functor distances(Distances(region, numbers, make));
     Eigen::LevenbergMarquardt<Functor> solver(distances);
     Eigen::VectorXd number = Eigen::VectorXd::Zero(numbers);
     solver.minimize(number);
@@ -106,7 +110,7 @@ template <class Make> TargetSurface refined(const Region& region, int numbers, c
 PlaneFace plane(const Region& region)
 {
     const Eigen::Matrix3Xd arm = region.vertex.colwise() - region.vertex.rowwise().mean();
-    Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(arm * arm.transpose()).eigenvectors();
+    const Eigen::Matrix3d axes = eigen_pairs(arm * arm.transpose()).vector;
     Eigen::Matrix<double, 3, 2> in_plane;
     in_plane << axes.col(2), axes.col(1);
     if (in_plane.col(0).cross(in_plane.col(1)).dot(region.facing) < 0)
@@ -145,7 +149,7 @@ TargetSurface cylinder(const Region& region)
         rows.row(v) << at.transpose(), 1;
         right[v] = at.squaredNorm();
     }
-    const Eigen::Vector3d circle = rows.colPivHouseholderQr().solve(right);
+    const Eigen::Vector3d circle = least_squares(rows, right);
     const double radius = region.size * std::sqrt(std::max(circle[2] + circle.head<2>().squaredNorm() / 4, 1e-12));
     const Eigen::Vector3d middle = region.centre + region.size / 2 * (circle[0] * x + circle[1] * y),
                           towards = square_to(axis, region.centre - middle);
@@ -165,7 +169,7 @@ TargetSurface cone(const Region& region)
     const Eigen::MatrixX3d normals = region.normal.transpose();
     const Eigen::VectorXd level =
         (region.normal.cwiseProduct(region.middle.colwise() - region.centre)).colwise().sum().transpose();
-    const Eigen::Vector3d apex = region.centre + normals.colPivHouseholderQr().solve(level);
+    const Eigen::Vector3d apex = region.centre + least_squares(normals, level);
     if (axis.dot(region.centre - apex) < 0)
         axis *= -1;
     const Eigen::Vector3d towards = square_to(axis, region.centre - apex);

@@ -1,6 +1,5 @@
 #include "app/viewer/model/document/step_target.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "app/viewer/model/document/unfolding_steps.h"
 #include "engine/core/error.h"
+#include "engine/core/small_dense.h"
 #include "engine/unfold/step/unfold_script.h"
 #include "engine/unfold/target/fit_target.h"
 #include "engine/unfold/target/given_face.h"
@@ -140,7 +140,7 @@ PlaneThrough plane_through(const TriMesh& mesh, const std::vector<int>& faces)
         const double size = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).norm() / 2;
         moment += size / 12 * (x * x.transpose() + sum * sum.transpose());
     }
-    Eigen::Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment).eigenvectors().col(0);
+    Eigen::Vector3d normal = eigen_pairs(moment).vector.col(0);
     if (normal.dot(facing) < 0)
         normal *= -1;
     PlaneThrough through{{centre, normal}, 0};
