@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "engine/mesh/doctor/doctor.h"
+#include "engine/mesh/solid/holes/sunk_holes.h"
 #include "engine/mesh/solid/skin.h"
-#include "engine/mesh/solid/sunk_holes.h"
 
 namespace spia {
 

@@ -6,11 +6,11 @@
 
 #include "engine/core/place_text.h"
 #include "engine/core/text.h"
-#include "engine/mesh/solid/holes_over_bends.h"
-#include "engine/mesh/solid/move_in_flats.h"
-#include "engine/mesh/solid/onto_surfaces.h"
-#include "engine/mesh/solid/round_border.h"
-#include "engine/mesh/solid/sunk_holes.h"
+#include "engine/mesh/solid/bends/holes_over_bends.h"
+#include "engine/mesh/solid/border/move_in_flats.h"
+#include "engine/mesh/solid/border/onto_surfaces.h"
+#include "engine/mesh/solid/holes/round_border.h"
+#include "engine/mesh/solid/holes/sunk_holes.h"
 #include "engine/part/mark_findings.h"
 
 namespace spia {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/mesh/solid/open_sinks.h"
+#include "engine/mesh/solid/holes/open_sinks.h"
 #include "engine/part/part_file.h"
 
 namespace spia {

@@ -9,7 +9,7 @@
 
 #include "engine/core/length_unit.h"
 #include "engine/mesh/doctor/doctor.h"
-#include "engine/mesh/solid/mark_line.h"
+#include "engine/mesh/solid/marks/mark_line.h"
 #include "engine/mesh/solid/skin.h"
 #include "engine/mesh/solid/stated_curve.h"
 #include "engine/mesh/solid/stated_surface.h"

@@ -9,7 +9,7 @@
 
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/face_neighbours.h"
-#include "engine/mesh/solid/round_border.h"
+#include "engine/mesh/solid/holes/round_border.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

@@ -6,7 +6,7 @@
 
 #include "engine/exchange/lines/blank_outline.h"
 #include "engine/exchange/lines/outline_curves.h"
-#include "engine/mesh/solid/mark_line.h"
+#include "engine/mesh/solid/marks/mark_line.h"
 
 namespace spia {
 

@@ -14,7 +14,7 @@
 #include "engine/core/small_dense.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/solid/flip_folds.h"
-#include "engine/mesh/solid/oblique_holes.h"
+#include "engine/mesh/solid/holes/oblique_holes.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh/solid/opposite.h"
-#include "engine/mesh/solid/sheet_sides.h"
-#include "engine/mesh/solid/surface_pieces.h"
+#include "engine/mesh/solid/sides/opposite.h"
+#include "engine/mesh/solid/sides/sheet_sides.h"
+#include "engine/mesh/solid/sides/surface_pieces.h"
 #include "engine/mesh/solid/thin_solid.h"
 
 namespace spia {

@@ -5,7 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
-#include "engine/mesh/solid/sheet_marks.h"
+#include "engine/mesh/solid/marks/sheet_marks.h"
 #include "engine/mesh/solid/stated_surface.h"
 #include "engine/mesh/tri_mesh.h"
 

@@ -11,7 +11,7 @@
 
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/face_neighbours.h"
-#include "engine/mesh/solid/cylinder_fit.h"
+#include "engine/mesh/solid/fit/cylinder_fit.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/plan/free_ends.h"
 #include "engine/unfold/plan/strip_cylinders.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/mesh/solid/cylinder_fit.h"
+#include "engine/mesh/solid/fit/cylinder_fit.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {

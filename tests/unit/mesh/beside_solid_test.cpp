@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "engine/mesh/solid/beside_solid.h"
-#include "engine/mesh/solid/onto_projection.h"
+#include "engine/mesh/solid/border/beside_solid.h"
+#include "engine/mesh/solid/border/onto_projection.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"

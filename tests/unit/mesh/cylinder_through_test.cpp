@@ -2,7 +2,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "engine/mesh/solid/unrolled_skin.h"
+#include "engine/mesh/solid/bends/unrolled_skin.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/seeded_random.h"
 

@@ -1,4 +1,4 @@
-#include "engine/mesh/solid/measured_cylinders.h"
+#include "engine/mesh/solid/fit/measured_cylinders.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

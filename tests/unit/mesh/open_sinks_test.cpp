@@ -2,7 +2,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "engine/mesh/solid/open_sinks.h"
+#include "engine/mesh/solid/holes/open_sinks.h"
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"
 

@@ -1,4 +1,4 @@
-#include "engine/mesh/solid/plane_regions.h"
+#include "engine/mesh/solid/fit/plane_regions.h"
 
 #include <gtest/gtest.h>
 

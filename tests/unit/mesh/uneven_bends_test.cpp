@@ -1,7 +1,7 @@
 // Bends whose arcs on both skins have not one axis.
 #include <gtest/gtest.h>
 
-#include "engine/mesh/solid/uneven_bends.h"
+#include "engine/mesh/solid/bends/uneven_bends.h"
 
 namespace spia {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "engine/exchange/read_part.h"
-#include "engine/mesh/solid/round_edge.h"
+#include "engine/mesh/solid/fit/round_edge.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/blank/drawn_blank.h"
 #include "engine/pipeline/session.h"

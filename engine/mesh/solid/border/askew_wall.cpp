@@ -1,0 +1,108 @@
+#include "engine/mesh/solid/border/askew_wall.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace spia {
+namespace {
+
+Eigen::Vector3d normal_of(const TriMesh& solid, int f)
+{
+    const Eigen::Matrix3d c = solid.position(Eigen::all, solid.triangle.col(f));
+    return (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).normalized();
+}
+
+/// Whether an edge goes along the sheet rather than through it.
+bool along_sheet(const TriMesh& solid, int f, int k, const Eigen::Vector3d& normal)
+{
+    constexpr double most = 0.4; // sine of 24 degrees
+    const Eigen::Vector3d edge =
+        solid.position.col(solid.triangle((k + 1) % 3, f)) - solid.position.col(solid.triangle(k, f));
+    return std::abs(edge.dot(normal)) < most * edge.norm();
+}
+
+constexpr double smooth = 0.9; // cosine of 25 degrees
+
+/// Between which some triangles are, mm, and the middle of the sheet.
+struct Heights {
+    double low = 0, high = 0;
+
+    void take(const TriMesh& solid, int face, const SheetPlane& sheet)
+    {
+        for (const int v : solid.triangle.col(face)) {
+            low = std::min(low, sheet.height(solid.position.col(v)));
+            high = std::max(high, sheet.height(solid.position.col(v)));
+        }
+    }
+};
+
+/// Triangles around one in the sheet, over edges at which these two belong together.
+std::vector<int> grown(const TriMesh& solid, const Eigen::Matrix3Xi& neighbour, int face, const SheetPlane& sheet,
+                       const auto& together)
+{
+    std::vector<int> result{face};
+    std::set<int> known{face};
+    for (size_t i = 0; i < result.size(); ++i)
+        for (const int next : neighbour.col(result[i]))
+            if (next >= 0 && !known.contains(next) && sheet.holds(solid, next) &&
+                together(normal_of(solid, result[i]), normal_of(solid, next))) {
+                known.insert(next);
+                result.push_back(next);
+            }
+    return result;
+}
+
+/// Whether what goes on smoothly from a triangle ends at a square wall, along the sheet.
+bool of_chamfer(const TriMesh& solid, const Eigen::Matrix3Xi& neighbour, int face, const SheetPlane& sheet)
+{
+    const std::vector<int> faces =
+        grown(solid, neighbour, face, sheet, [](const auto& a, const auto& b) { return a.dot(b) > smooth; });
+    return std::ranges::any_of(faces, [&](int f) {
+        for (int k = 0; k < 3; ++k)
+            if (const int next = neighbour(k, f);
+                next >= 0 && std::abs(normal_of(solid, next).dot(sheet.normal)) <= square_lean &&
+                normal_of(solid, f).dot(normal_of(solid, next)) <= smooth && along_sheet(solid, f, k, sheet.normal))
+                return true;
+        return false;
+    });
+}
+
+} // namespace
+
+bool SheetPlane::holds(const TriMesh& solid, int face) const
+{
+    constexpr double rounding = 1e-6;
+    return std::ranges::all_of(solid.triangle.col(face),
+                               [&](int v) { return std::abs(height(solid.position.col(v))) <= (1 + rounding) * half; });
+}
+
+AskewWall askew_wall(const TriMesh& solid, const Eigen::Matrix3Xi& neighbour, int face, const SheetPlane& sheet)
+{
+    constexpr double level = 0.985;    // sine of 80 degrees
+    constexpr double alike = 0.02;     // of the sine: what turns away is the wall of a bend beside the flat
+    constexpr double most_of_it = 0.6; // of the thickness: its chamfers take less
+    const double lean = normal_of(solid, face).dot(sheet.normal);
+    if (std::abs(lean) <= square_lean || std::abs(lean) >= level)
+        return {{face}};
+    AskewWall wall{grown(solid, neighbour, face, sheet, [&](const auto& a, const auto& b) {
+        return a.dot(b) > smooth && std::abs(b.dot(sheet.normal) - lean) < alike;
+    })};
+    Heights own;
+    for (const int f : wall.face)
+        own.take(solid, f, sheet);
+    Heights with_chamfers = own;
+    for (const int f : wall.face)
+        for (int k = 0; k < 3; ++k)
+            if (const int next = neighbour(k, f);
+                next >= 0 && sheet.holds(solid, next) && along_sheet(solid, f, k, sheet.normal))
+                with_chamfers.take(solid, next, sheet);
+    constexpr double nearly = 0.98;
+    wall.crosses = own.low < 0 && own.high > 0 && own.high - own.low > most_of_it * 2 * sheet.half &&
+                   std::min(with_chamfers.high, -with_chamfers.low) > nearly * sheet.half &&
+                   !of_chamfer(solid, neighbour, face, sheet);
+    return wall;
+}
+
+} // namespace spia
