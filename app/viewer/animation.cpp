@@ -212,7 +212,7 @@ Animation::Animation(const SaveAnimation& wanted, const ViewerState& state, std:
         shown_.view.field_on_steps = true;
     }
     if (wanted.frames < 2 || wanted.width < 1 || wanted.height < 1 || !(wanted.seconds > 0))
-        throw InputError("An animation has two pictures at least, a size and a time.");
+        throw InputError("An animation needs at least two pictures, a size and a duration.");
     constexpr double most = 5e8; // pixels: half a gigabyte of memory
     if (double(wanted.frames) * wanted.width * wanted.height > most)
         throw InputError("The animation would be too large: take fewer pictures, or smaller ones.");

@@ -28,7 +28,7 @@ void through_the_middle(const Frame& frame, ClipPlane& clip)
 std::string side_words(const ClipPlane& clip, LengthUnit unit)
 {
     if (clip.axis == ClipAxis::view)
-        return clip.flip ? "what lies behind is cut away" : "what lies before is cut away";
+        return clip.flip ? "everything behind it is cut away" : "everything in front of it is cut away";
     const char axis = "xyz"[int(clip.axis)];
     return fmt::format("{} {} {} is cut away", axis, clip.flip ? '<' : '>', fixed_length(clip.place_mm + 0., unit, 2));
 }

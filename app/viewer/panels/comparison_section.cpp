@@ -61,7 +61,7 @@ void field_switch(Frame& frame)
     ImGui::BeginDisabled(!possible);
     const bool changed = ImGui::Checkbox("Show the difference from the reference", &display.difference);
     ImGui::EndDisabled();
-    tooltip(possible                    ? "Positive where the value is greater now than in the reference"
+    tooltip(possible                    ? "Positive where the value is higher now than in the reference"
             : state.differences->fields ? "For thickness, thinning, strains and stresses"
                                         : state.differences->none_because);
     if (!changed)
@@ -108,7 +108,7 @@ void comparison_section(Frame& frame)
     ImGui::SameLine();
     if (small_button(frame, "Remove reference"))
         frame.actions.push(DropReference{});
-    tooltip("The present result is kept");
+    tooltip("The current result is kept as reference");
 }
 
 } // namespace spia::viewer

@@ -58,9 +58,9 @@ void crack_line(Frame& frame)
     coloured(colour, verdict.text);
     tooltip(
         verdict.kind == Kind::unknown
-            ? "Choose or give a curve in Forming limits below, or points of one with the material."
-            : "Greatest engineering major strain, as a share of the forming limit curve at the same minor strain. The zones are in "
-              "Forming limits below.");
+            ? "Choose a curve in Forming limits below, or give the points of one with the material."
+            : "Highest engineering major strain, in percent of the forming limit curve at the same minor strain. The "
+              "zones are in Forming limits below.");
     if (verdict.face >= 0 && verdict.kind != Kind::safe && small_button(frame, "Show the place"))
         frame.actions.push(FlyTo{verdict.face});
     ImGui::Dummy({0, 2 * frame.ui.scale});

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float dot = 18; ///< room before a message, at content scale 1
 
-std::string more_label(size_t more) { return more > 0 ? fmt::format("{} more...", more) : "Whole text..."; }
+std::string more_label(size_t more) { return more > 0 ? fmt::format("{} more...", more) : "Full text..."; }
 
 /// With the gap before them.
 float buttons_width(const Frame& frame, bool more_button, size_t more)

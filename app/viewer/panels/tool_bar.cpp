@@ -137,7 +137,7 @@ void tool_options(Frame& frame, const BarStyle& style)
         return;
     }
     if (settings.tool == Tool::measure) {
-        item_for("Radius of three places");
+        item_for("Radius of a fillet or bend");
         if (ImGui::BeginCombo("##measure", title(settings.measure))) {
             for (const MeasureKind kind : {MeasureKind::distance, MeasureKind::angle, MeasureKind::faces,
                                            MeasureKind::circle, MeasureKind::rounding})

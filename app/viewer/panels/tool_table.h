@@ -29,12 +29,13 @@ inline constexpr ToolButton tools[] = {
      "Pick vertices of the outline and the holes; sharp turns attract the mouse. Four of the outline can become the corners "
      "of the grid."},
     {Tool::corners, "Corners", 'C', "Drag the four corners along the outline of the blank."},
-    {Tool::probe, "Probe", 'O', "Pin the value at a place.", true},
+    {Tool::probe, "Probe", 'O', "Pin the value at a point.", true},
     {Tool::section, "Section", 'X', "Draw a line: the field is plotted along the cut."},
     {Tool::measure, "Measure", 'M',
      "Measure distances, angles and radii on the part; Escape drops what was clicked so far."},
     {Tool::line, "Line", 'W',
-     "Draw a drawbead, a pilot or a seam on the part, place by place; Return or a double click ends it, Escape drops it.",
+     "Draw a drawbead, a pilot or a seam on the part, point by point; Return or a double click ends it, Escape drops "
+     "it.",
      true},
     {Tool::shape, "Shape", 'K',
      "Pick control points of the surface, or points of its lattice, and drag them; Shift adds, Ctrl takes away."},

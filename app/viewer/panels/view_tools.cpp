@@ -127,7 +127,7 @@ std::string no_measuring(Frame& frame, View view)
     if (view == View::part && shows_refused(state))
         return "The file that was refused cannot be measured: go back to the part first, in the step Part.";
     if (view == View::part && step_position(state) > 0)
-        return "A part on the way of its steps cannot be measured: move the slider back to the part as it is formed.";
+        return "A partly unfolded part cannot be measured: move the slider back to the formed part.";
     if (frame.model.pickers().measuring_mesh(state, view))
         return "";
     if (view == View::quads && state.document.session.options.patches)

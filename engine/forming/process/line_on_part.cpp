@@ -77,7 +77,7 @@ std::vector<LinePlace> LineOnPart::places(const std::string& what, const std::ve
                               way.normalized()});
     }
     if (result.empty())
-        throw InputError(fmt::format("{} needs a line of at least two different places", what));
+        throw InputError(fmt::format("{} needs a line of at least two different points", what));
     return result;
 }
 

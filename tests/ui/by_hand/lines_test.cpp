@@ -28,7 +28,7 @@ TEST_F(LinesByHand, ADrawbeadGetsItsForceFromItsShapeAndGoes)
     hands->click_beside("Edge restraint", -110, 0);
     now = hands->see_that("a held edge", [](const Json& r) { return r["process"]["edge_restraint"] > 0; });
     hands->click(now["lines"][0]["name"].get<std::string>()); // its row unfolds
-    click_left("Force of the bead's shape");
+    click_left("Force from the bead geometry");
     hands->see_that("a shape", [](const Json& r) { return r["lines"][0]["shape"].is_object(); });
     hands->click("x");
     count("/lines", 0);

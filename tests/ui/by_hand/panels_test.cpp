@@ -215,7 +215,7 @@ TEST_F(PanelsByHand, AGradeOfOnesOwn)
     hands->click("Save");
     hands->see_that("a grade of one's own", [](const Json& r) { return r["grades"]["own"].size() == 1; });
     hands->click("Remove...");
-    hands->click("Remove the file for good");
+    hands->click("Delete the file permanently");
     hands->see_that("none of one's own", [](const Json& r) { return r["grades"]["own"].empty(); });
     hands->click("Close");
     hands->see_no("Built in");

@@ -92,7 +92,7 @@ TEST_F(PreferencesByHand, SizeThemeAndTheSheetOfNewPartsAreKept)
     value("/preferences/material", "dp600");
     value("/options/material", "mild_steel"); // the part that is open keeps its sheet
     start();
-    hands->see("Grade and thickness of your preferences");
+    hands->see("Grade and thickness from preferences");
     value("/options/material", "dp600");
     const Json now = value("/view/dark", false);
     for (const Json& doubt : now["doubts"])

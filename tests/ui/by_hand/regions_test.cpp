@@ -34,7 +34,7 @@ TEST_F(RegionsByHand, ARegionIsNamedBecomesAPieceOfATailoredBlankAndGoes)
     hands->click("fixed");
     hands->click("material");
     value("/regions/0/kind", "material");
-    click_left("Own sheet (tailored blank)");
+    click_left("Different sheet (tailored blank)");
     hands->see_that("a sheet of its own", [](const Json& r) { return r["regions"][0]["sheet"].is_object(); });
     hands->click("ok");
     hands->click("x");

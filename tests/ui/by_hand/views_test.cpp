@@ -180,7 +180,7 @@ TEST_F(ViewsByHand, ARadiusAnAngleAndADistanceAreMeasured)
     hands->keys("m");
     value("/view/tool", "measure");
     hands->click("Distance");
-    hands->click("Radius of a rounding");
+    hands->click("Radius of a fillet or bend");
     value("/view/measure", "rounding");
     click(at(Angle::place(Angle::per_flat + 4.5, 0.55)));
     hands->see("M1 R 6.00 mm");
@@ -204,7 +204,7 @@ TEST_F(ViewsByHand, ARadiusAnAngleAndADistanceAreMeasured)
         hands->click_at(x, y + 5);
         hands->click(kind);
     };
-    choose("Radius of a rounding", "Angle of two faces");
+    choose("Radius of a fillet or bend", "Angle of two faces");
     click(at(Angle::place(2.3, 0.4)));
     click(at(Angle::place(Angle::per_flat + Angle::per_arc + 3.3, 0.4)));
     now = hands->see_that("an angle", [](const Json& r) { return r["measurements"].size() == 2; });

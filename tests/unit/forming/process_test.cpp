@@ -261,7 +261,7 @@ TEST(Process, WhatIsWrongIsNamed)
     process.drawbeads = {{"b1", {{20, 5, 3}, {20, 20, 40}, {20, 35, 4}}, 80}};
     EXPECT_NE(refusal(process, part).find("(20, 20, 40) is 40 mm off"), std::string::npos) << refusal(process, part);
     process.drawbeads = {{"b1", {{20, 5, 0}}, 80}};
-    EXPECT_NE(refusal(process, part).find("at least two different places"), std::string::npos);
+    EXPECT_NE(refusal(process, part).find("at least two different points"), std::string::npos);
     process.drawbeads = {{"b1", {{20, 5, 0}, {20, 35, 0}}, -1}};
     EXPECT_NE(refusal(process, part).find("must be positive"), std::string::npos);
     process.drawbeads[0].force_N_mm = 0; // of a shape that does not bend the sheet

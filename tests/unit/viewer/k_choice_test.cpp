@@ -172,7 +172,7 @@ TEST_F(KChoice, IsUndoneAndKeptInProjects)
         open_project(folder / "b.spia", assets / "materials");
         ADD_FAILURE() << "the table is nowhere";
     } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr((folder / "k.csv").string() + " is not there any more"));
+        EXPECT_THAT(error.what(), HasSubstr((folder / "k.csv").string() + " no longer exists"));
     }
     model.apply(Undo{});
     EXPECT_FALSE(document.session.options.k_factor) << "changes in a row are one";

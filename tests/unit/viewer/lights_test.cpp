@@ -244,8 +244,9 @@ TEST_F(Lights, PatchesThatKinkWhereThePartDoesNotAreAmber)
     ASSERT_TRUE(document.session.surface && document.session.surface->patches);
     const auto kinks = [](const Document& shown) {
         const auto doubts = find_doubts(shown);
-        return std::any_of(doubts.begin(), doubts.end(),
-                           [](const Doubt& doubt) { return doubt.text.find("Patches meet at up to") == 0; });
+        return std::any_of(doubts.begin(), doubts.end(), [](const Doubt& doubt) {
+            return doubt.text.find("Patches join with a kink of up to") == 0;
+        });
     };
     Document bent = document;
     auto surface = std::make_shared<SurfaceStage>(*document.session.surface);

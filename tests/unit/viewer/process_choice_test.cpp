@@ -97,7 +97,7 @@ TEST_F(ProcessChoice, LinesBecomeBeadsAndPilotsWithNamesOfTheirOwn)
     EXPECT_EQ(bead_force(document, 2), process.drawbeads[1].force_N_mm);
     EXPECT_EQ(process.pilots.at(0), (Pilot{"pilot 1", {at[0]}}));
     model.apply(AddLine{{.kind = LineKind::drawbead, .point = {at[0]}}});
-    EXPECT_NE(last_error().find("two places"), std::string::npos);
+    EXPECT_NE(last_error().find("two points"), std::string::npos);
     model.apply(SelectVertices{{4, 9}});
     model.apply(PinVertices{});
     EXPECT_EQ(process.pilots.size(), 3u);

@@ -371,9 +371,9 @@ TEST(ProjectFile, WhatIsNoProjectIsRefusedInPlainWords)
         return refusal(folder / "b.spia");
     };
     EXPECT_NE(refused("spia-project/1", "spia-project/2").find("newer version of the program"), std::string::npos);
-    EXPECT_NE(refused("spia-project/1", "spia-project/1x").find("is no project"), std::string::npos);
-    EXPECT_NE(refused("spia-project/1", "spia-project/").find("is no project"), std::string::npos);
-    EXPECT_NE(refused("spia-project/1", "spia-script/1").find("is no project"), std::string::npos);
+    EXPECT_NE(refused("spia-project/1", "spia-project/1x").find("is not a SPIA project"), std::string::npos);
+    EXPECT_NE(refused("spia-project/1", "spia-project/").find("is not a SPIA project"), std::string::npos);
+    EXPECT_NE(refused("spia-project/1", "spia-script/1").find("is not a SPIA project"), std::string::npos);
     EXPECT_NE(refused("\"thickness\"", "\"thicknes\"").find("thicknes"), std::string::npos);
     EXPECT_NE(refused("\"dark\":true", "\"dark\":1").find("/view/dark must be true or false"), std::string::npos);
     EXPECT_NE(refused("\"mild_steel\"", "\"gold\"").find("gold"), std::string::npos);

@@ -117,7 +117,7 @@ TEST_F(ViewerModelTest, WhatFixedRegionsActOnIsSaidWhereNothingIsToBeDone)
     model.apply(RunTo{Stage::solve});
     wait();
     model.apply(RunTo{Stage::solve});
-    EXPECT_TRUE(says(Severity::hint, "Fixed regions stay where they are in Step by step only"));
+    EXPECT_TRUE(says(Severity::hint, "Fixed regions take effect in Step by step only"));
 }
 
 TEST_F(ViewerModelTest, AFirstRunThatIsCancelledLeavesNothingToSaveOrToTakeBack)
@@ -366,7 +366,7 @@ TEST_F(ViewerModelTest, AProjectWhosePartHasGoneTellsWhereItWas)
             open("square-cup.obj");
         model.apply(OpenProject{folder / "gone.spia"});
         wait();
-        EXPECT_TRUE(says(Severity::error, gone.string() + " is not there any more"));
+        EXPECT_TRUE(says(Severity::error, gone.string() + " no longer exists"));
         EXPECT_TRUE(says(Severity::error, beside_another ? "square-cup.obj is still open" : "stays as it is"));
         EXPECT_NE(document.session.part, nullptr);
     }

@@ -101,9 +101,8 @@ void ViewerModel::Apply::operator()(const RunTo& action)
             Severity::hint,
             session.options.steps
                 ? "Everything is up to date, with the blank of the steps. Unfold (F6) unfolds the part in one step instead."
-            : fixed
-                ? "Everything is up to date. Fixed regions stay where they are in Step by step only: propose steps there."
-                : "Everything is up to date.");
+            : fixed ? "Everything is up to date. Fixed regions take effect in Step by step only: propose steps there."
+                    : "Everything is up to date.");
         return;
     }
     part();
@@ -171,8 +170,8 @@ void ViewerModel::Apply::operator()(const SetKFactor& action)
         return;
     if (k && session.part && session.part->solid && session.part->solid->skin != Skin::middle)
         throw InputError(
-            "A K factor moves the middle surface of bends to their neutral fibre, and the lengths are those of "
-            "a skin: choose \"middle\" as \"Skin\" in the step Part first.");
+            "A K factor needs the middle surface, but the lengths are those of a skin: choose \"middle\" as \"Skin\" "
+            "in the step Part first.");
     const bool unsaved = state.unsaved;
     change("Change the K factor", true);
     session.options.k_factor = std::move(k);
@@ -250,7 +249,7 @@ void ViewerModel::Apply::operator()(const SetGrid& action)
     const GridOptions& grid = action.grid;
     if (grid.columns < 0 || grid.rows < 0 || grid.columns > 2000 || grid.rows > 2000 || grid.cells < 1 ||
         grid.cells > 2000)
-        throw InputError("A grid has from 1 to 2000 cells each way (0: automatic).");
+        throw InputError("A grid has from 1 to 2000 cells in each direction (0: automatic).");
     const bool unsaved = state.unsaved;
     change("Change grid", true);
     session.options.grid = grid;

@@ -38,8 +38,8 @@ void ViewerModel::Apply::operator()(const OpenProject& action)
         model.without_part_ = std::move(opening);
         const std::string open = session.part ? session.file.filename().string() : "";
         throw InputError(fmt::format(
-            "The project's part {} is not there any more: put it back, or open it from where it is now, and the "
-            "project's settings come with it.{}",
+            "The project's part {} no longer exists: put it back, or open it from where it is now, and the project's "
+            "settings come with it.{}",
             file.string(),
             open.empty()              ? ""
             : open == file.filename() ? " What is shown stays as it is."

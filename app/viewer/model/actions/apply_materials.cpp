@@ -24,7 +24,8 @@ const Grade& own_grade(const std::vector<Grade>& grades, const std::string& name
     if (!grade)
         throw InputError(fmt::format("There is no grade \"{}\" among your own.", name));
     if (!grade->own)
-        throw InputError(fmt::format("{} is built in and stays as it is; copy it as your own first.", grade->label()));
+        throw InputError(
+            fmt::format("{} is built in and cannot be changed; copy it as your own first.", grade->label()));
     return *grade;
 }
 
@@ -74,7 +75,7 @@ void ViewerModel::Apply::operator()(const RemoveMaterial& action)
     std::error_code error;
     if (!std::filesystem::remove(grade.file, error) || error)
         throw ExchangeError(fmt::format("cannot remove {}: {}; check who may write there", grade.file.string(),
-                                        error ? error.message() : "it is gone already"));
+                                        error ? error.message() : "it was removed already"));
     state.grades = std::make_shared<const std::vector<Grade>>(read_grades(built_in, folder));
     model.say(Severity::done, fmt::format("The grade {} was removed.", grade.label()));
 }

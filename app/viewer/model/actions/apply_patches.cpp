@@ -29,7 +29,7 @@ void ViewerModel::Apply::operator()(const AddCut&)
         vertex = number_of(file, vertex);
     LayoutOptions patches = session.options.patches.value_or(LayoutOptions{});
     if (std::find(patches.cuts.begin(), patches.cuts.end(), cut) != patches.cuts.end())
-        throw InputError("There is this cut already.");
+        throw InputError("This cut exists already.");
     patches.cuts.push_back(std::move(cut));
     change_patches("Cut into patches", std::move(patches));
     document.vertices.clear();

@@ -134,7 +134,7 @@ void ViewerModel::Apply::operator()(const AddLine& action)
     part();
     ProcessLine line = action.line;
     if (line.kind == LineKind::drawbead && line.point.size() < 2)
-        throw InputError("A drawbead needs a line of two places at least.");
+        throw InputError("A drawbead needs a line of at least two points.");
     if (line.name.empty()) {
         const auto alike = std::count_if(document.lines.begin(), document.lines.end(),
                                          [&](const ProcessLine& each) { return each.kind == line.kind; });
@@ -148,7 +148,7 @@ void ViewerModel::Apply::operator()(const ChangeLine& action)
 {
     const size_t number = line(action.number);
     if (action.line.kind == LineKind::drawbead && action.line.point.size() < 2)
-        throw InputError("A drawbead needs a line of two places at least.");
+        throw InputError("A drawbead needs a line of at least two points.");
     change_process("Change line", true, [&](Document& edited) { edited.lines[number] = action.line; });
 }
 

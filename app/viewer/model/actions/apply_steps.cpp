@@ -151,7 +151,7 @@ void ViewerModel::Apply::operator()(const AddStep& action)
     const std::vector<int> freed = whole_faces(part(), picked);
     if (freed.size() > picked.size())
         model.say(Severity::hint,
-                  fmt::format("{} more of the triangles, so that each face of the file is unfolded as a whole.",
+                  fmt::format("{} more triangles were added, so that each face of the file is unfolded as a whole.",
                               freed.size() - picked.size()));
     std::vector<int> both;
     std::set_intersection(fixed.faces.begin(), fixed.faces.end(), freed.begin(), freed.end(), std::back_inserter(both));
@@ -184,7 +184,8 @@ void ViewerModel::Apply::operator()(const ChangeStep& action)
     if (action.name.empty())
         throw InputError("A step needs a name.");
     if (!std::isfinite(action.offset_mm) || !(action.within_mm >= 0))
-        throw InputError("The offset of a step must be a length, the distance from its target 0 or more.");
+        throw InputError("The offset of a step must be a length, and the distance within which its target is fitted 0 "
+                         "or more.");
     if (action.tolerance && !(*action.tolerance >= least_step_tolerance && *action.tolerance <= most_step_tolerance))
         throw InputError(
             fmt::format("The tolerance of a step must be from {} to {}.", least_step_tolerance, most_step_tolerance));

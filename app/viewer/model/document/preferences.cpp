@@ -59,7 +59,7 @@ KeptPreferences read_preferences()
         }
     } catch (const std::exception& error) {
         kept.left_out.push_back(
-            fmt::format("The preferences cannot be read, the standard ones are taken: {}.", error.what()));
+            fmt::format("The preferences cannot be read, the defaults are used: {}.", error.what()));
     }
     return kept;
 }

@@ -245,7 +245,7 @@ void require_version(const Json& json, const fs::path& file)
     const char* digits = schema.data() + std::min(schema.size(), schema_name.size());
     const auto [rest, error] = std::from_chars(digits, end, number);
     if (!schema.starts_with(schema_name) || error != std::errc() || rest != end || number < 1)
-        throw InputError(fmt::format("{} is no project of SPIA: it does not begin with \"schema\": \"{}{}\"",
+        throw InputError(fmt::format("{} is not a SPIA project: it does not begin with \"schema\": \"{}{}\"",
                                      file.string(), schema_name, version));
     if (number > version)
         throw InputError(
@@ -306,7 +306,7 @@ std::optional<KFactor> stored_k(const StoredProject& stored, const fs::path& fil
         if (fs::is_regular_file(table, ignored))
             return k_factor(table.string());
         if (stored.k_table_rows.empty())
-            throw InputError(fmt::format("its table {} is not there any more; put it back", table.string()));
+            throw InputError(fmt::format("its table {} no longer exists; put it back", table.string()));
         std::string text;
         for (const auto& [ratio, k] : stored.k_table_rows)
             text += fmt::format("{} {}\n", ratio, k);

@@ -48,7 +48,7 @@ CurvatureAt curvature_at(const TriMesh& mesh, int face, const Vector3d& place, c
     constexpr size_t least = 7;
     if (vertices.size() < least)
         throw InputError("The mesh is too coarse here to say how it bends: there are fewer than 7 vertices around this "
-                         "place. Measure the circle through three places instead.");
+                         "point. Measure the circle through three points instead.");
     CurvatureAt found;
     found.vertices = int(vertices.size());
     const Vector3d z = normal_of(mesh, patch), x = z.unitOrthogonal(), y = z.cross(x);

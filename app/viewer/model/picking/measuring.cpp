@@ -65,7 +65,7 @@ Measured angle(const Vector3d& a, const Vector3d& tip, const Vector3d& b)
 {
     const Vector3d to_a = a - tip, to_b = b - tip;
     if (!(to_a.norm() > 0) || !(to_b.norm() > 0))
-        throw InputError("Two of the three places are the same; an angle needs three.");
+        throw InputError("Two of the three points are the same; an angle needs three.");
     Measured found;
     const double radians = angle_between(to_a, to_b);
     found.value = radians / degree;
@@ -101,7 +101,7 @@ Measured circle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
     constexpr double straight = 1e-6; // radians; on a flat sheet places read from a file are no
                                       // nearer to a line
     if (!(across.norm() > straight * to_b.norm() * to_c.norm()))
-        throw InputError("These three places lie on a straight line: no circle goes through them.");
+        throw InputError("These three points lie on a straight line: no circle goes through them.");
     // The circumcentre of a triangle.
     const Vector3d arm = (to_c.squaredNorm() * across.cross(to_b) + to_b.squaredNorm() * to_c.cross(across)) /
                          (2 * across.squaredNorm());
@@ -166,7 +166,7 @@ Measured freeform_bend(const TriMesh& part, const Probe& probe, const FaceSet& r
         {"Over a circle of", {2 * here.reach_mm}},
         {"Farthest from the fit", {here.distance_mm}},
         {"Fit", {}, fmt::format("{:.1f} % of the rise", 100 * here.distance_mm / rise)},
-        {"Side", {}, here.curvature[0] < 0 ? "outer, bulges" : "inner, hollow"}};
+        {"Side", {}, here.curvature[0] < 0 ? "outer, convex" : "inner, concave"}};
     const Vector3d middle = here.place + here.normal / here.curvature[0], arm = here.place - middle;
     const Vector3d axis = here.normal.cross(here.across).normalized();
     constexpr double half = 60 * degree; // of the circle that lies on the bend
@@ -191,8 +191,8 @@ Measured rounding(const TriMesh& part, const Probe& probe, const RegionSearch& r
         return freeform_bend(part, probe, faces, "no cylinder"); // a gentle bend is not flat
     if (std::holds_alternative<PlaneFace>(fit->face))
         throw InputError(
-            fmt::format("The sheet around this place is flat (within {:.3g} mm): it has no radius. Click on "
-                        "the rounded faces of a bend.",
+            fmt::format("The sheet around this point is flat (within {:.3g} mm): it has no radius. Click on the "
+                        "rounded faces of a bend.",
                         fit->distance_mm));
     const CylinderFace& cylinder = std::get<CylinderFace>(fit->face);
     const Vector3d at = place(part, probe);
@@ -203,9 +203,9 @@ Measured rounding(const TriMesh& part, const Probe& probe, const RegionSearch& r
     found.residual = fit->distance_mm;
     found.more = {{"Measured", {}, "cylinder through the bend"},
                   {"Farthest from the cylinder", {fit->distance_mm}},
-                  {"Turns by", {}, fmt::format("{:.1f} deg", around / degree)},
+                  {"Swept angle", {}, fmt::format("{:.1f} deg", around / degree)},
                   {"Faces", {}, fmt::format("{}", faces.size())},
-                  {"Side", {}, cylinder.bulges ? "outer, bulges" : "inner, hollow"}};
+                  {"Side", {}, cylinder.bulges ? "outer, convex" : "inner, concave"}};
     const Vector3d arm = cylinder.radius * (at - foot).normalized();
     found.line = {polyline({foot, foot + arm}), arc(foot, Eigen::AngleAxisd(-std::numbers::pi, cylinder.axis) * arm,
                                                     cylinder.axis, 2 * std::numbers::pi)};
@@ -233,10 +233,10 @@ const char* title(MeasureKind kind)
 {
     switch (kind) {
     case MeasureKind::distance: return "Distance";
-    case MeasureKind::angle: return "Angle of three places";
+    case MeasureKind::angle: return "Angle of three points";
     case MeasureKind::faces: return "Angle of two faces";
-    case MeasureKind::circle: return "Radius of three places";
-    case MeasureKind::rounding: return "Radius of a rounding";
+    case MeasureKind::circle: return "Radius of three points";
+    case MeasureKind::rounding: return "Radius of a fillet or bend";
     }
     return "";
 }
@@ -244,12 +244,11 @@ const char* title(MeasureKind kind)
 const char* advice(MeasureKind kind)
 {
     switch (kind) {
-    case MeasureKind::distance: return "Click two places";
-    case MeasureKind::angle: return "Click three places; the angle is at the second one";
+    case MeasureKind::distance: return "Click two points";
+    case MeasureKind::angle: return "Click three points; the angle is at the second one";
     case MeasureKind::faces: return "Click two faces: the angle between their normals";
-    case MeasureKind::circle: return "Click three places: the circle through them";
-    case MeasureKind::rounding:
-        return "Click a rounded piece of sheet: the cylinder through it, else its radius at that place";
+    case MeasureKind::circle: return "Click three points: the circle through them";
+    case MeasureKind::rounding: return "Click a fillet or bend: the cylinder through it, else its radius at that point";
     }
     return "";
 }
@@ -258,7 +257,7 @@ Measured measured(const TriMesh& part, const Measurement& measurement, const Reg
 {
     const std::vector<Probe>& at = measurement.at;
     if (at.size() != places_of(measurement.kind))
-        throw InputError(fmt::format("{} needs {} place{} but there {} {}.", title(measurement.kind),
+        throw InputError(fmt::format("{} needs {} point{} but there {} {}.", title(measurement.kind),
                                      places_of(measurement.kind), places_of(measurement.kind) == 1 ? "" : "s",
                                      at.size() == 1 ? "is" : "are", at.size()));
     for (const Probe& probe : at)

@@ -44,7 +44,7 @@ std::string text(const FitVerdict& verdict, LengthUnit lengths)
         return "There is no surface yet: IGES, STEP and files for analysis on the surface are left out.";
     const auto length = [&](double mm) { return length_text(mm, lengths, 3); };
     if (verdict.fit == Fit::within)
-        return fmt::format("It is nowhere farther than {} from the part, on 95 % of the area not farther than {}.",
+        return fmt::format("Its distance from the part is {} at most, and {} at most on 95 % of the area.",
                            length(verdict.greatest), length(verdict.p95));
     return fmt::format(
         "It deviates from the part by up to {}{}; {} of the area is beyond {}.", length(verdict.greatest),

@@ -263,8 +263,8 @@ void judge_joints(const Document& document, std::vector<Doubt>& doubts)
     const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
     doubts.push_back(
         {ChainStep::surface,
-         fmt::format("Patches meet at up to {:.3g} degrees, where the part turns by {:.2g} degrees from "
-                     "triangle to triangle at most.",
+         fmt::format("Patches join with a kink of up to {:.3g} degrees, while the part turns by at most {:.2g} degrees "
+                     "from triangle to triangle.",
                      degrees(angle), degrees(turn)),
          "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
 }
@@ -378,8 +378,8 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
         add_shortcomings(ChainStep::unfold, upto, document, known, doubts);
         judge_cracks(document, doubts);
         if (const std::string left_out = made.options.steps ? left_out_by_steps(document) : ""; !left_out.empty())
-            doubts.push_back({ChainStep::unfold, "The blank is that of the steps. " + left_out,
-                              "Unfold in one step to have it, or take it away."});
+            doubts.push_back({ChainStep::unfold, "The blank was made step by step. " + left_out,
+                              "Unfold in one step to take it into account, or remove it."});
     }
     if (made.grid && holds(Stage::grid)) {
         upto.grid = made.grid;

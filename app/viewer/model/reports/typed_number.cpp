@@ -40,7 +40,7 @@ std::optional<double> typed_number_of(std::string_view text, std::initializer_li
 std::string refused_number(std::string_view text, std::string_view field, std::string_view kept)
 {
     const std::string_view name = field_name(field).name;
-    return fmt::format("\"{}\" is no number. {} stays {}.", trimmed(text), name.empty() ? "The value" : name, kept);
+    return fmt::format("\"{}\" is not a number. {} stays {}.", trimmed(text), name.empty() ? "The value" : name, kept);
 }
 
 FieldName field_name(std::string_view label)

@@ -38,7 +38,7 @@ void about_dialog(Frame& frame)
             text += name + " " + version + "\n";
         ImGui::SetClipboardText(text.c_str());
     }
-    tooltip("The list of versions, for a report of a fault");
+    tooltip("Copies the list of versions, for a bug report");
     ImGui::SameLine();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - wide);
     if (ImGui::Button("Close", {wide, 0}) || pressed(frame, GLFW_KEY_ESCAPE) || enter_pressed(frame))

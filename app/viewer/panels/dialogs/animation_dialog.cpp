@@ -37,11 +37,11 @@ void choice_rows(Frame& frame, AnimationChoices& choices)
     typed_integer(frame, "from part to blank", choices.frames, 4);
     choices.frames = std::clamp(choices.frames, 2, 500);
     ImGui::BeginDisabled(!choices.gif);
-    form_row("Takes");
+    form_row("Duration");
     ImGui::SetNextItemWidth(150 * s);
     typed_number(frame, "seconds", choices.seconds, "%.3g", 0.5);
     choices.seconds = std::clamp(choices.seconds, 0.1, 600.);
-    form_row("Then");
+    form_row("At the end");
     ImGui::Checkbox("back to the part", &choices.back);
     ImGui::EndDisabled();
     form_row("With");
@@ -61,9 +61,9 @@ void animation_dialog(Frame& frame)
     if (appears || suggestion != choices.suggested)
         follow(choices.file, choices.suggested, suggestion);
     muted(frame, steps_done(frame.state.document) > 0
-                     ? "The part as its steps unfold it, seen as in the view of the part."
-                     : "The part as it becomes the blank, seen as in the view of the part. Steps of their own are not "
-                       "shown: the part was unfolded in one.");
+                     ? "The part unfolding step by step, seen as in the view of the part."
+                     : "The part turning into the blank, seen as in the view of the part. There are no single steps: "
+                       "the part was unfolded in one step.");
     bool choose = false;
     std::filesystem::path file = choices.file;
     if (ImGui::BeginTable("choices", 2)) {

@@ -191,12 +191,12 @@ bool choice(const char* label, T& value, const std::array<std::pair<T, const cha
 /// What the outline is drawn as, and for which programs.
 void dxf_choices(Frame& frame, DxfOptions& dxf)
 {
-    if (choice(
-            "Curves", dxf.curves,
-            std::array{std::pair{DxfCurves::arcs, "arcs, else polylines"},
-                       std::pair{DxfCurves::splines, "arcs, else splines"},
-                       std::pair{DxfCurves::polylines, "polylines only"}},
-            "Circles, arcs and lines where they are found; the rest as polylines or splines through the places of the mesh") &&
+    if (choice("Curves", dxf.curves,
+               std::array{std::pair{DxfCurves::arcs, "arcs, else polylines"},
+                          std::pair{DxfCurves::splines, "arcs, else splines"},
+                          std::pair{DxfCurves::polylines, "polylines only"}},
+               "Circles, arcs and lines where they are found; the rest as polylines or splines through the vertices of "
+               "the mesh") &&
         dxf.curves == DxfCurves::splines)
         dxf.version = DxfVersion::r2000;
     if (choice("Version", dxf.version,
@@ -209,7 +209,7 @@ void dxf_choices(Frame& frame, DxfOptions& dxf)
     double within = dxf.tolerance;
     if (length_input(frame, "Within", within, {.mm = "%.4g", .inch = "%.5g"}))
         dxf.tolerance = std::clamp(within, least_dxf_tolerance, most_dxf_tolerance);
-    tooltip("How far a place of the outline may be from the curve that is drawn there");
+    tooltip("Largest distance of the outline from the curve that is drawn for it");
     ImGui::EndDisabled();
 }
 

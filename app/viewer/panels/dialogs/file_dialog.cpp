@@ -271,7 +271,7 @@ void FileDialog::new_folder_row(bool enter)
     fs::create_directory(folder, failed);
     new_folder_.reset();
     if (failed)
-        problem_ = fmt::format("{} cannot be made: {}", folder.string(), failed.message());
+        problem_ = fmt::format("{} cannot be created: {}", folder.string(), failed.message());
     else {
         go_to(folder);
         appearing_name_ = true;
@@ -367,7 +367,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
     else if (confirm_)
         ImGui::TextColored(palette_of(frame.state.view.dark).warning, "This file exists already.");
     else if (entries_.empty())
-        ImGui::TextDisabled(words.folders ? "No folders in here; this one may be taken"
+        ImGui::TextDisabled(words.folders ? "No subfolders here; this folder can be chosen"
                             : words.saves ? "No such files here yet"
                                           : "No files of this kind here");
     else {

@@ -357,7 +357,7 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
             ImGui::SetNextItemWidth(width);
             length_field(
                 frame, in_unit("Close gaps up to", frame.lengths()).c_str(), choices.sewing, sewing,
-                "Gaps between faces up to this width are closed. Empty: the program chooses, from the gaps it finds; 0: none are closed.");
+                "Gaps between faces up to this width are closed. Empty: found from the gaps; 0: no gaps are closed.");
             ImGui::TableNextColumn();
             ImGui::SetNextItemWidth(width);
             length_field(frame, in_unit("Chord height", frame.lengths()).c_str(), choices.deflection, deflection,

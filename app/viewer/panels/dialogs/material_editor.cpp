@@ -142,7 +142,7 @@ void grade_list(Frame& frame, const Shown& shown)
                         choose(key);
                 }
         if (!any)
-            muted(frame, "None yet. Copy a built-in grade, or make one of a tensile test.");
+            muted(frame, "None yet. Copy a built-in grade, or make one from a tensile test.");
         ImGui::Dummy({0, 4 * frame.ui.scale});
     }
 }
@@ -263,7 +263,7 @@ void remove_buttons(Frame& frame, const Shown& shown)
             editor.removing = true;
         return;
     }
-    if (coloured_button(frame, "Remove the file for good", {0, 0}, palette_of(frame.state.view.dark).error)) {
+    if (coloured_button(frame, "Delete the file permanently", {0, 0}, palette_of(frame.state.view.dark).error)) {
         frame.actions.push(RemoveMaterial{shown.grade->reference});
         editor.draft.erase(shown.key);
         editor.shown.clear();
@@ -319,7 +319,7 @@ void buttons(Frame& frame, const Shown& shown, bool sound)
     ImGui::EndDisabled();
     note_place(frame, "save material");
     if (!shown.editable)
-        tooltip("Built-in grades stay as they are: copy one as your own");
+        tooltip("Built-in grades cannot be changed: copy one as your own");
     else if (can_save && !sound)
         tooltip("Correct what is marked red first");
 }

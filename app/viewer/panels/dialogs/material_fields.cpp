@@ -160,9 +160,10 @@ void sheet_fields(Frame& frame, Fields& fields, const GradeFigures& figures)
     fields.number("r45", "r45", "-", m.r45, "r-value (Lankford coefficient) at 45\u00b0 to the rolling direction");
     fields.number("r90", "r90", "-", m.r90, "r-value (Lankford coefficient) across the rolling direction");
     figure(frame, "r mean", fmt::format("{:.3f}", figures.normal_anisotropy));
-    tooltip("(r0 + 2 r45 + r90) / 4: the larger, the less the sheet becomes thin");
+    tooltip("(r0 + 2 r45 + r90) / 4: the higher it is, the less the sheet thins in drawing");
     figure(frame, "delta r", fmt::format("{:+.3f}", figures.planar_anisotropy));
-    tooltip("(r0 - 2 r45 + r90) / 2: 0 where the sheet draws in alike in all directions, else a cup has ears");
+    tooltip("(r0 - 2 r45 + r90) / 2: planar anisotropy; 0: the same draw-in in all directions, otherwise a drawn cup "
+            "has ears");
     if (!m.source.empty()) {
         muted(frame, "Source: " + m.source);
     }
@@ -292,7 +293,7 @@ void limit_fields(Frame& frame, Fields& fields)
         fields.changed = true;
     }
     if (limit.n && limit.minor.empty())
-        fields.number("forming_limit/n", "n", "-", *limit.n, "Of Keeler-Brazier; above 0.21 it counts as 0.21");
+        fields.number("forming_limit/n", "n", "-", *limit.n, "For Keeler-Brazier; values above 0.21 count as 0.21");
     else if (!limit.minor.empty()) {
         fields.points("limit", "forming_limit/minor", "forming_limit/major",
                       "minor, %     major, %  (engineering strain)", limit.minor, limit.major, 100, 100);

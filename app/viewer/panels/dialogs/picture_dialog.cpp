@@ -38,7 +38,7 @@ void size_input(Frame& frame, PictureChoices& choices)
     const std::pair<Size, const char*> sizes[] = {{Size::screen, as_now.c_str()},
                                                   {Size::full_hd, "1920 x 1080"},
                                                   {Size::ultra_hd, "3840 x 2160"},
-                                                  {Size::own, "Own size"}};
+                                                  {Size::own, "Custom size"}};
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##size", sizes[size_t(choices.size)].second)) {
         for (const auto& [size, label] : sizes)
@@ -106,8 +106,8 @@ void picture_dialog(Frame& frame)
         ImGui::Checkbox("Legend", &choices.legend);
         ImGui::SameLine(0, 16 * frame.ui.scale);
         ImGui::Checkbox("Labels", &choices.labels);
-        labelled("Ground");
-        if (ImGui::RadioButton("Of the theme", !choices.transparent))
+        labelled("Background");
+        if (ImGui::RadioButton("As the theme", !choices.transparent))
             choices.transparent = false;
         ImGui::SameLine(0, 16 * frame.ui.scale);
         if (ImGui::RadioButton("Transparent", choices.transparent))

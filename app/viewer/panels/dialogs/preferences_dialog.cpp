@@ -36,7 +36,7 @@ void interface_rows(Frame& frame, Preferences& edited)
     }
     form_row("Lengths in");
     either(frame, "mm", LengthUnit::mm, "inch", LengthUnit::inch, edited.lengths);
-    tooltip("On the screen and in reports. Exported files have a unit of their own.");
+    tooltip("On the screen and in reports. The unit of exported files is chosen in the export dialog.");
     form_row("Mouse as in");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##mouse", title(edited.mouse))) {
@@ -141,7 +141,7 @@ void preferences_dialog(Frame& frame)
     ImGui::PushFont(frame.ui.fonts.bold);
     ImGui::TextUnformatted("New parts");
     ImGui::PopFont();
-    muted(frame, "What a part begins with when it is opened and its file says nothing else.");
+    muted(frame, "Used when a part is opened whose file does not give them.");
     if (table("parts")) {
         part_rows(frame, choices);
         ImGui::EndTable();

@@ -33,7 +33,7 @@ void pictures_column(const Frame& frame, ViewerReportOptions& options)
         }
         ImGui::EndDisabled();
     }
-    heading(frame, "How they look");
+    heading(frame, "Appearance");
     if (ImGui::RadioButton("Standard: light, whole part, thinning", options.standard_look))
         options.standard_look = true;
     if (ImGui::RadioButton("Current views", !options.standard_look))

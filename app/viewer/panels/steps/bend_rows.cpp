@@ -33,7 +33,7 @@ std::string bend_words(const Frame& frame, const SheetBend& bend)
                         : fmt::format("its radius is that of the {}.",
                                       bend.stated ? "CAD cylinder" : "circle through the vertices");
     if (!bend.laid)
-        words += "\nThe blank has it as the mesh has: " + engine_words(frame, bend.why_not + "; " + bend.way_out) + ".";
+        words += "\nThe blank has its mesh length: " + engine_words(frame, bend.why_not + "; " + bend.way_out) + ".";
     return words + "\nClick to look at it.";
 }
 
@@ -41,12 +41,12 @@ void headings(Frame& frame)
 {
     const std::string unit = std::string(length_word(frame.lengths()));
     const std::array<std::string, 6> help = {
-        "Up or down, seen on the blank as it is drawn",
+        "Bend up or down, on the blank as it is drawn",
         "Inner radius, " + unit,
-        "By how much the sheet turns, degrees; 0 is flat",
-        "Share of the thickness, from the inner side, at which the neutral fibre lies",
-        "Bend allowance, " + unit + ": the breadth of the bend in the blank",
-        "Bend deduction, " + unit + ": what the sum of both outer leg lengths is longer by than the blank"};
+        "Bend angle, degrees; 0 is flat",
+        "K factor: distance of the neutral fibre from the inside of the bend, as a share of the thickness",
+        "Bend allowance, " + unit + ": the length of the bend in the flat blank, across the bend line",
+        "Bend deduction, " + unit + ": the sum of both outer leg lengths minus the flat length"};
     ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).muted);
     for (size_t c = 0; c < titles.size(); ++c) {
         ImGui::TableNextColumn();
@@ -154,7 +154,7 @@ void k_factor_control(Frame& frame)
     const KSource now = k_source(k);
     ImGui::BeginDisabled(of_skin && !k);
     ImGui::SetNextItemWidth(170 * frame.ui.scale);
-    const std::string shown = now == KSource::number ? "number" : of_skin && !k ? "none, of a skin" : k_words(k);
+    const std::string shown = now == KSource::number ? "number" : of_skin && !k ? "none, skin lengths" : k_words(k);
     if (ImGui::BeginCombo("K factor", shown.c_str())) {
         if (ImGui::Selectable("0.5, middle surface", now == KSource::automatic))
             frame.actions.push(SetKFactor{});
@@ -171,8 +171,8 @@ void k_factor_control(Frame& frame)
             of_skin
                 ? "The lengths are those of a skin of the solid. Choose \"middle\" as \"Skin\" in the step Part to "
                   "lay bends by their neutral fibre."
-                : "Where the neutral fibre of a bend lies: this share of the thickness from its inner side. A table "
-                  "has two columns, inner radius over thickness and K.");
+                : "Distance of the neutral fibre from the inside of a bend, as a share of the thickness. A table has "
+                  "two columns, inner radius over thickness and K.");
     ImGui::EndDisabled();
     if (now != KSource::number)
         return;
@@ -189,14 +189,14 @@ void bend_rows(Frame& frame)
     if (!session.bends || (!session.part->solid && session.bends->bends.empty()))
         return;
     figure(frame, "Lengths of", session.bends->surface);
-    tooltip("Which surface of the sheet the lengths of the blank are those of");
+    tooltip("The surface of the sheet whose lengths the blank has");
     const auto& bends = session.bends->bends;
     if (bends.empty())
         return;
     const auto flags = int(bends.size()) > most_rows ? ImGuiTreeNodeFlags_None : ImGuiTreeNodeFlags_DefaultOpen;
     const bool open = ImGui::TreeNodeEx("bends", flags | ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s",
                                         bends.size() == 1 ? "1 bend" : fmt::format("{} bends", bends.size()).c_str());
-    tooltip("Bends over cylinders, with the length of their neutral fibre in the blank, and sharp folds");
+    tooltip("Cylindrical bends, laid with the length of their neutral fibre, and sharp folds");
     if (!open)
         return;
     table(frame, bends);

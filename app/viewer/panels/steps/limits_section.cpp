@@ -78,7 +78,8 @@ void settings(Frame& frame)
     double margin = choice.margin.value_or(limits ? limits->settings.margin : ZoneOptions{}.margin);
     if (percent_input(
             frame, "Required margin", margin,
-            "What is to be left up to the curve, in percentage points of engineering major strain. Less counts as marginal, less than half of it as at risk."))
+            "Safety margin below the curve, in percentage points of engineering major strain. Faces with less are "
+            "marginal, with less than half of it at risk."))
         choice.margin = margin;
     percent_input(frame, option::max_thinning, choice.max_thinning);
     percent_input(frame, option::max_thickening, choice.max_thickening);
@@ -137,7 +138,8 @@ void spots(Frame& frame, const LimitsResult& limits)
     ImGui::TextDisabled("Worst spots");
     ImGui::TableNextColumn();
     right_aligned("margin", true);
-    tooltip("To the forming limit curve, in percentage points of engineering major strain; below 0 the sheet cracks");
+    tooltip("Margin below the forming limit curve, in percentage points of engineering major strain; below 0 the sheet "
+            "cracks");
     ImGui::TableNextColumn();
     right_aligned("thinning", true);
     tooltip("Negative: thicker than before");
@@ -181,7 +183,7 @@ void limits_section(Frame& frame)
     if (limits.curve) {
         figure(frame, "Limit at plane strain",
                fmt::format("{:.1f} %", 100 * engineering_strain(limits.curve->at_plane_strain())));
-        tooltip("FLC0: engineering major strain at which the sheet begins to neck where it does not change its width");
+        tooltip("FLC0: engineering major strain at the onset of necking in plane strain (minor strain 0)");
     }
     for (const std::string& note : limits.notes)
         muted(frame, as_sentence(engine_words(frame, note)));

@@ -75,7 +75,7 @@ bool bead_length(Frame& frame, const char* label, double& mm, double least, doub
 bool shape_inputs(Frame& frame, ProcessLine& bead)
 {
     bool by_shape = bead.shape.has_value();
-    bool changed = ImGui::Checkbox("Force of the bead's shape", &by_shape);
+    bool changed = ImGui::Checkbox("Force from the bead geometry", &by_shape);
     tooltip("From radius, depth and friction: the work of bending and unbending, and friction on the wraps");
     if (changed)
         bead.shape = by_shape ? std::optional(BeadShape{}) : std::nullopt;
@@ -85,7 +85,7 @@ bool shape_inputs(Frame& frame, ProcessLine& bead)
     changed |= bead_length(frame, "Shoulder radius", bead.shape->shoulder_radius, 1e-3, 1e3,
                            "Radius of the edges of the groove");
     changed |= bead_length(frame, "Depth", bead.shape->depth, 0, 1e3,
-                           "Height by which the bead presses the sheet into the groove");
+                           "Depth to which the bead pushes the sheet into the groove");
     changed |= number_input(frame, "Friction", bead.shape->friction, 0, 10, "Friction coefficient in the bead");
     return changed;
 }

@@ -67,7 +67,7 @@ void sheet_inputs(Frame& frame, int number, const FaceRegion& region)
     const Document& document = frame.state.document;
     std::optional<OwnSheet> sheet = region.sheet;
     bool own = sheet.has_value(), changed = false;
-    if (ImGui::Checkbox("Own sheet (tailored blank)", &own)) {
+    if (ImGui::Checkbox("Different sheet (tailored blank)", &own)) {
         sheet =
             own ? std::optional(OwnSheet{document.material, document.session.options.flatten.thickness}) : std::nullopt;
         changed = true;

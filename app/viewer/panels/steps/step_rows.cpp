@@ -18,7 +18,8 @@ const char* status_words(StepStatus status)
     case StepStatus::stale: return "out of date";
     case StepStatus::failed: return "no result";
     case StepStatus::needs_pick:
-        return "The fixed faces of its target are gone. Select fixed faces and press \"Fit to selection\", or choose a target.";
+        return "The fixed faces of its target no longer exist. Select fixed faces and press \"Fit to selection\", or "
+               "choose a target.";
     }
     return "";
 }
@@ -91,7 +92,7 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
                 "Strain beyond the valid range of the hardening curve, extrapolated: the sheet would neck or crack there");
         }
         if (after.friction_share < 1)
-            coloured(p.warning, fmt::format("{:.2g} % of its friction", 100 * after.friction_share));
+            coloured(p.warning, fmt::format("{:.2g} % of its friction applied", 100 * after.friction_share));
         if (status == StepStatus::poor)
             coloured(p.warning, "Not converged: " + engine_words(frame, after.reason));
     } else if (status == StepStatus::failed)

@@ -115,7 +115,7 @@ void sheet_step(Frame& frame)
         ImGui::Separator();
         if (ImGui::Selectable("Edit materials..."))
             open_material_editor(frame);
-        if (ImGui::Selectable("Own material file..."))
+        if (ImGui::Selectable("Material from a file..."))
             frame.ui.files.open(FileDialog::Purpose::open_material, frame.model.assets() / "materials");
         if (ImGui::Selectable("From a tensile test..."))
             choose_tensile_test(frame);
@@ -135,9 +135,9 @@ void sheet_step(Frame& frame)
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
     if (document.material_from == SheetSource::preference || document.thickness_from == SheetSource::preference)
-        muted(frame, document.material_from != SheetSource::preference    ? "Thickness of your preferences"
-                     : document.thickness_from != SheetSource::preference ? "Grade of your preferences"
-                                                                          : "Grade and thickness of your preferences");
+        muted(frame, document.material_from != SheetSource::preference    ? "Thickness from preferences"
+                     : document.thickness_from != SheetSource::preference ? "Grade from preferences"
+                                                                          : "Grade and thickness from preferences");
     doubt_rows(frame, ChainStep::sheet);
 }
 
@@ -165,9 +165,11 @@ void direction_control(Frame& frame)
     tooltip(
         session.blank && !chosen
             ? fmt::format(
-                  "Stamping direction found: {:.3f}, {:.3f}, {:.3f}. It defines the start of the unfolding, the plane of the blank and the outer side.",
+                  "Stamping direction found: {:.3f}, {:.3f}, {:.3f}. It defines the first guess of the unfolding, the "
+                  "plane of the blank and the outer side.",
                   shown[0], shown[1], shown[2])
-            : "Stamping direction of the press. It defines the start of the unfolding, the plane of the blank and the outer side.");
+            : "Stamping direction of the press. It defines the first guess of the unfolding, the plane of the blank "
+              "and the outer side.");
     if (now != 4)
         return;
     Eigen::Vector3d edited = *chosen;

@@ -47,7 +47,7 @@ void left_out_line(Frame& frame)
         return;
     coloured(palette_of(frame.state.view.dark).warning, text);
     note_place(frame, "left out by steps");
-    tooltip("The one-step solution has them: \"Unfold\" in the step Unfold  (F6)");
+    tooltip("The one-step solution takes them into account: \"Unfold\" in the step Unfold  (F6)");
 }
 
 /// Where a proposal was planned anew: what of it, in one line.
@@ -115,7 +115,7 @@ void list_buttons(Frame& frame)
     if (!empty) {
         if (small_button(frame, "Propose again"))
             frame.actions.push(ProposeSteps{});
-        tooltip("Replaces the list; the largest flat region stays fixed. Undo restores the present list.");
+        tooltip("Replaces the list; the largest flat region stays fixed. Undo restores the current list.");
         ImGui::SameLine();
     }
     if (!document.selected.empty()) {
@@ -197,7 +197,7 @@ void blank_of_steps(Frame& frame)
         return;
     }
     if (!other.empty())
-        muted(frame, fmt::format("Once used it is laid by the K factor that is set now ({}).",
+        muted(frame, fmt::format("When used, its bends are laid with the K factor set now ({}).",
                                  k_words(document.session.options.k_factor)));
     if (primary_button(frame, "Use this blank", idle(frame)))
         frame.actions.push(UseBlankOfSteps{polish});
