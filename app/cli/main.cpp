@@ -68,7 +68,7 @@ std::string empty_word(int count, char** values)
     for (int i = 1; i < count; ++i)
         if (const std::string_view word = values[i]; word.empty() || (word.starts_with("--") && word.ends_with('=')))
             return word.empty() ? fmt::format("the word after '{}' is empty", values[i - 1])
-                                : fmt::format("nothing stands behind '{}'", word);
+                                : fmt::format("'{}' needs a value", word);
     return "";
 }
 
@@ -84,11 +84,11 @@ int done(const std::function<int()>& run)
     } catch (const ExchangeError& error) {
         return failed(bad_file, error.what());
     } catch (const Cancelled& error) {
-        return failed(cancelled, fmt::format("{}; files that were finished stay", error.what()));
+        return failed(cancelled, fmt::format("{}; finished files are kept", error.what()));
     } catch (const std::bad_alloc&) {
         return failed(no_solution, "there is not enough memory for this part");
     } catch (const std::exception& error) {
-        return failed(internal, (std::string("an error of the program itself: ") + error.what()));
+        return failed(internal, (std::string("internal error of the program: ") + error.what()));
     }
 }
 
@@ -102,20 +102,21 @@ int main(int count, char** values)
     spdlog::set_level(spdlog::level::warn);
 
     CLI::App app{
-        "SPIA: from a stamped sheet-metal part to its flat blank, with the strains that forming costs, and to a "
-        "NURBS surface."};
+        "SPIA: from a stamped sheet-metal part to its flat blank, with the forming strains, and to a NURBS surface."};
     app.set_version_flag("--version", SPIA_VERSION);
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 done, 1 poorer result with --strict, 2 the input is at fault, 3 no solution, 4 a file cannot "
-        "be read or written, 130 cancelled (`unfold` leaves the states of the steps that are done).");
+        "Exit codes: 0 done, 1 poorer result with --strict, 2 faulty input, 3 no solution, 4 a file cannot be read or "
+        "written, 130 cancelled (`unfold` leaves the states of the steps that are done).");
     int threads = 0;
     std::vector<std::function<int()>> runs;
     for (const cli::Subcommand& each : subcommands) {
         CLI::App& command = *app.add_subcommand(each.name, each.synopsis);
         runs.push_back(each.add(command));
         if (each.parallel)
-            command.add_option("--threads", threads, "most threads (default: all); the result is the same for any")
+            command
+                .add_option("--threads", threads,
+                            "maximum number of threads (default: all); the result does not depend on it")
                 ->type_name("N")
                 ->check(CLI::Range(1, 1024));
     }

@@ -35,11 +35,11 @@ void add_arguments(CLI::App& command, FitArguments& fit)
         ->required()
         ->type_name("FILE.csv");
     command.add_option("--out", fit.out, "the material file")->required()->type_name("GRADE.json");
-    command.add_option("--law", fit.law, "the law to take; best weighs its error and its number of parameters")
+    command.add_option("--law", fit.law, "hardening law; best weighs the error against the number of parameters")
         ->check(CLI::IsMember({"best", "swift", "hollomon", "voce", "ludwik", "hockett_sherby", "swift_voce"}))
         ->capture_default_str();
     command.add_option("--name", fit.name, "of the grade (default: the file's)");
-    command.add_option("--r", fit.r, "Lankford coefficients r0,r45,r90 (a tensile curve does not hold them)")
+    command.add_option("--r", fit.r, "Lankford coefficients r0,r45,r90 (a tensile curve does not contain them)")
         ->delimiter(',')
         ->expected(3)
         ->check(CLI::Range(1e-3, 99.0))

@@ -55,7 +55,7 @@ void add_dxf(CLI::App& command, DxfArguments& dxf)
 {
     command
         .add_option("--dxf-curves", dxf.curves,
-                    "what the outline is in the DXF file of the blank: circles, arcs and lines where they are found, "
+                    "curves of the outline in the DXF file of the blank: circles, arcs and lines where they are found, "
                     "else straight pieces (arcs) or splines (splines); or straight pieces throughout (polylines)")
         ->check(CLI::IsMember({"arcs", "polylines", "splines"}))
         ->capture_default_str();
@@ -63,7 +63,7 @@ void add_dxf(CLI::App& command, DxfArguments& dxf)
         ->check(CLI::IsMember({"r12", "r2000"}))
         ->capture_default_str();
     command
-        .add_option("--dxf-tolerance", dxf.tolerance, "how far a place of the outline may be from what is drawn there")
+        .add_option("--dxf-tolerance", dxf.tolerance, "largest distance of the outline from the curves drawn for it")
         ->type_name("MM")
         ->capture_default_str();
 }

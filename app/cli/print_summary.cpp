@@ -26,7 +26,7 @@ void print_spots(const Zones& zones, const PartFile& part)
         say("{} {:<18} face {} at {:.4g}, {:.4g}, {:.4g} mm: {} {:+.1f} %, strains {:.3f} and {:.3f}\n",
             k == 0 ? "worst    " : "         ", name(spot.zone), part.source_face[size_t(spot.face)], spot.position[0],
             spot.position[1], spot.position[2],
-            by_curve                                ? "left to the curve"
+            by_curve                                ? "margin to the curve"
             : spot.zone == Zone::excessive_thinning ? "thinning"
                                                     : "thickening",
             100 * spot.value, spot.strain_major, spot.strain_minor);
@@ -67,7 +67,7 @@ void print_summary(const Session& session)
     for (const std::string& line : describe(applied_process(session)))
         say("process   {}\n", line);
     if (flat.report.process_share < 1)
-        say("process   of these forces {:.2g} % are in the blank\n", 100 * flat.report.process_share);
+        say("process   {:.2g} % of these forces are applied in the blank\n", 100 * flat.report.process_share);
     if (session.options.steps && !session.options.steps->polish)
         say("blank     {:.6g} x {:.6g} mm, {:.6g} mm2, {}\n", size[0], size[1], figures.blank.area, flat.report.reason);
     else
@@ -118,7 +118,7 @@ void print_summary(const Session& session)
         const JoinsReport& joins = *patches->joins;
         say("joins     angle up to {:.3g} degrees, {:.3g} before{}{}\n", joins.angle_after / degree,
             joins.angle_before / degree,
-            joins.kept > 0 ? fmt::format("; {} stay as they were: smooth, they would be worse",
+            joins.kept > 0 ? fmt::format("; {} left as before, smoothing would make them worse",
                                          counted(joins.kept, "patch", "patches"))
                            : "",
             joins.edges > 0 ? fmt::format("; {} of {} places are edges of the part", joins.edges, joins.places) : "");

@@ -18,7 +18,7 @@ void add_steps(CLI::App& command, UnfoldArguments& unfolding)
             ->type_name("FILE");
     command
         .add_flag("--auto", unfolding.automatic,
-                  "steps of its own; with --out they are written as a script, to be edited")
+                  "steps proposed by the program; with --out they are written as a script that can be edited")
         ->excludes(by_script);
     command
         .add_option("--redo", unfolding.redo,
@@ -78,9 +78,10 @@ void add_arguments(CLI::App& command, UnfoldArguments& unfolding)
     add_remesh(command, unfolding.read.remesh);
     add(command, option::k_factor, unfolding.k_factor);
     command.add_flag("--polish", unfolding.polish,
-                     "also solve the whole part at once, from the blank of the steps, and compare both blanks");
+                     "also solve the whole part in one step, starting from the blank of the steps, and compare both "
+                     "blanks");
     add_surface(command, unfolding);
-    command.add_flag("--strict", unfolding.strict, "exit 1 if the result is poorer or a script did not fit");
+    command.add_flag("--strict", unfolding.strict, "exit 1 if the result has shortcomings or a script did not fit");
 }
 
 } // namespace spia::cli

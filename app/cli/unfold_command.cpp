@@ -88,7 +88,7 @@ void print_map(const BendMap& map, const BendTable& table)
     if (map.bends.size() > most)
         say("          and {} more\n", map.bends.size() - most);
     if (const auto small = std::count(taken.begin(), taken.end(), char(0)); small > 0)
-        say("          {} a fold by itself in the steps: too small, or within another\n",
+        say("          {} treated as a separate bend by the steps: too small, or part of another\n",
             counted(small, "bend of the table is not", "bends of the table are not"));
 }
 
@@ -104,12 +104,12 @@ void print_states(const UnfoldRun& run, const TriMesh& part, double diagonal)
         say("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {}{}\n", k + 1, state.name, state.plain,
             figures.strain_equivalent, percent_range(figures.thinning), state.converged ? "" : ", NOT converged");
         if (state.on && (std::holds_alternative<HeightFace>(state.on->face) || creased(*state.on, diagonal)))
-            say("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
+            say("          along the hinge {:.3g} mm off the fixed faces, turned by {:.2f} deg\n",
                 state.on->distance_mm, state.on->angle * degrees);
         if (state.friction_share < 1)
-            say("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
+            say("          {:.2g} % of the friction is applied: {}\n", 100 * state.friction_share, state.reason);
         if (state.overlap.places > 0)
-            say("          lies on itself at {}, {} of them laid so by this step, first at {} mm\n",
+            say("          overlaps itself at {}, {} of them caused by this step, first at {} mm\n",
                 counted(state.overlap.places, "place", "places"), state.overlap.landed,
                 place_text(state.overlap.first));
     }
@@ -129,12 +129,12 @@ void print_blank(const char* what, const BlankFigures& blank)
 
 void print_polish(const PolishedBlank& polished)
 {
-    say("polish    outlines up to {:.4g} mm apart, {:.4g} mm in the mean; {}\n", polished.outline_distance_mm,
+    say("polish    outlines up to {:.4g} mm apart, {:.4g} mm on average; {}\n", polished.outline_distance_mm,
         polished.outline_distance_mean_mm, polished.whole.report.reason);
     print_blank("steps", polished.steps);
     print_blank("whole", polished.polished);
     for (const std::string& text : polished.worse)
-        say("  the blank of the whole is worse: {}\n", text);
+        say("  the polished blank is worse: {}\n", text);
 }
 
 /// Both blanks are wanted: where the whole cannot be solved that of the steps stays.
@@ -344,7 +344,7 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
         if (file.empty())
             continue;
         if (!run.blank)
-            throw SolveError(fmt::format("{}: cannot be carried over, for there is no blank", file.string()));
+            throw SolveError(fmt::format("{}: cannot be carried over, because there is no blank", file.string()));
         const DxfLines drawn = read_line_file(file);
         for (const std::string& kind : drawn.left_out)
             findings.push_back(fmt::format("{}: not read: {}", file.string(), kind));
@@ -477,7 +477,7 @@ int unfold(const UnfoldArguments& arguments)
         throw SolveError(fmt::format("step {} \"{}\": {}{}", run.states.size() + 1, steps[run.states.size()].name,
                                      run.failure, describe_kept(arguments, run)));
     if (!arguments.surface.empty() && !surface)
-        throw SolveError("there is no surface, for the steps gave no blank");
+        throw SolveError("there is no surface, because the steps gave no blank");
     if (surface && surface->error)
         std::rethrow_exception(surface->error);
     return arguments.strict && !poorer.empty() ? 1 : 0;

@@ -36,14 +36,15 @@ inline constexpr Option deflection{
     .key = "deflection_mm",
     .value = "MM",
     .range = chord_height,
-    .help = "of a CAD file: distance between triangles and faces (default: 1/2000 of the diagonal of a box around the "
-            "faces and their control points, 0.005 of long borders that are no arcs)",
+    .help = "of a CAD file: largest distance between triangles and faces (default: 1/2000 of the diagonal of a box "
+            "around the faces and their control points, 0.005 along long borders that are not arcs)",
     .label = "Chord height",
     .place = "\"Import options...\""};
 inline constexpr Option chord_angle{.name = "angle",
                                     .value = "DEG",
-                                    .help = "of a CAD file: between the tangents at both ends of a chord (default: 20, "
-                                            "of conical sheet and long borders that are no arcs 2)"};
+                                    .help = "of a CAD file: largest angle between the tangents at both ends of a chord "
+                                            "(default: 20; 2 on conical sheet and along long borders that are not "
+                                            "arcs)"};
 inline constexpr Option skip_bad_faces{
     .name = "skip-bad-faces",
     .key = "leave_out_bad_faces",
@@ -56,7 +57,7 @@ inline constexpr Option skin{.name = "skin",
                              .key = "skin",
                              .choices = skins_of_solid,
                              .help =
-                                 "of a solid of sheet: the surface that stands for it, outer (outside of its bends), "
+                                 "of a sheet-metal solid: the surface that is laid flat, outer (outside of its bends), "
                                  "inner or middle (default: middle)",
                              .label = "Skin",
                              .place = "the step Part"};
@@ -68,8 +69,8 @@ inline constexpr Option weld{
     .value = "[MM]",
     .range = gap_width,
     .choices = gap_to_weld,
-    .help = "join vertices at one place (always done for STL and glTF), with a number also across gaps up to it; "
-            "`spia info` proposes one where it finds a crack",
+    .help = "join coincident vertices (always done for STL and glTF), with a number also across gaps up to it; `spia "
+            "info` proposes one where it finds a crack",
     .label = "Weld vertices",
     .place = "the step Part"};
 inline constexpr Option keep_largest{.name = "keep-largest",
@@ -98,8 +99,8 @@ inline constexpr Option remesh{
 inline constexpr Option no_remesh{
     .name = "no-remesh",
     .key = "keep_triangles",
-    .help = "keep the triangles of CAD faces also where they are needles on a surface that does not unroll; such parts "
-            "are remeshed else",
+    .help = "keep the triangles of CAD faces also where they are needles on a surface that does not unroll; otherwise "
+            "such parts are remeshed",
     .label = "Remesh",
     .place = "the step Part"};
 inline constexpr Option remesh_size{
@@ -107,8 +108,8 @@ inline constexpr Option remesh_size{
     .key = "size",
     .value = "MM",
     .range = Range{1e-9, 1e9},
-    .help = "length of their edges where nothing asks for shorter ones (default: the part's median edge, from 1/250 to "
-            "1/40 of its diagonal)",
+    .help = "edge length of the triangles where nothing requires a shorter one (default: the part's median edge, from "
+            "1/250 to 1/40 of its diagonal)",
     .label = "Edges",
     .place = "the step Part"};
 inline constexpr Option remesh_tolerance{
@@ -122,10 +123,10 @@ inline constexpr Option remesh_tolerance{
 inline constexpr Option least_angle{
     .name = "min-angle",
     .value = "DEG",
-    .help = "a target: triangles with smaller angles are a shortcoming, the worst is named"};
+    .help = "quality target: triangles with smaller angles are a shortcoming, the worst is named"};
 inline constexpr Option edge_ratio{.name = "max-edge-ratio",
                                    .value = "RATIO",
-                                   .help = "a target likewise, for the longest edge of a triangle over its shortest"};
+                                   .help = "quality target for the longest edge of a triangle over its shortest"};
 
 /// All of this file.
 inline constexpr const Option* of_parts[] = {

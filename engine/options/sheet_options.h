@@ -29,13 +29,13 @@ inline constexpr Option process{.name = "process",
 inline constexpr Option rolling{
     .name = "rolling",
     .value = "X,Y,Z",
-    .help = "rolling direction of the sheet x,y,z, seen square to the blank: r-values apply along it, and the blank "
-            "lies with it along x (default: no r-values of their own directions, the blank lies straight)"};
+    .help = "rolling direction of the sheet x,y,z, projected onto the blank: r-values are measured from it, and it "
+            "lies along x of the blank (default: the mean r-value in all directions, the blank lies straight)"};
 inline constexpr Option k_factor{
     .name = "k-factor",
     .value = "K|din6935|FILE",
-    .help = "where the neutral fibre of bends lies, as a share of the thickness from their inner side: a number, "
-            "din6935 (by radius over thickness), or a file of rows R/t K (default: 0.5, the middle)",
+    .help = "distance of the neutral fibre from the inside of a bend, as a share of the thickness: a number, din6935 "
+            "(by radius over thickness), or a file of rows R/t K (default: 0.5, the middle)",
     .label = "K factor",
     .place = "the step Unfold"};
 
@@ -43,7 +43,7 @@ inline constexpr Option flc{
     .name = "flc",
     .value = "keeler-brazier|FILE.csv|none",
     .help = "forming limit curve: keeler-brazier, none, a file of minor and major strains, or automatic: "
-            "keeler-brazier for steel, none else"};
+            "keeler-brazier for steel, none for other metals"};
 inline constexpr Option flc_n{.name = "flc-n",
                               .key = "n",
                               .range = Range{1e-6, 1},
@@ -53,8 +53,8 @@ inline constexpr Option marginal{
     .key = "margin",
     .value = "PERCENT",
     .range = Range{0, 1},
-    .help = "points of engineering major strain below the curve that are marginal, the upper half of them at risk "
-            "(default 10, aluminium 8)"};
+    .help = "safety margin below the curve, in points of engineering major strain: faces within it are marginal, "
+            "within its upper half at risk (default 10, aluminium 8)"};
 inline constexpr Option max_thinning{.name = "max-thinning",
                                      .key = "max_thinning",
                                      .value = "PERCENT",

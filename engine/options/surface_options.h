@@ -27,12 +27,12 @@ inline constexpr Option cells{.name = "",
 inline constexpr Option smoothing{.name = "",
                                   .key = "smoothing",
                                   .range = Range{0, 100'000},
-                                  .help = "how often the nodes of a Coons grid with folded cells are smoothed at most",
+                                  .help = "maximum number of smoothing passes over a Coons grid with folded cells",
                                   .label = "Smoothing"};
 inline constexpr Choice grid_methods[] = {
     {"automatic", {}, "Coons, or harmonic where that folds"},
     {"coons", "Coons", "lines blended between opposite sides as in the paper, smoothed where cells fold"},
-    {"harmonic", {}, "lines as heat would flow from side to side, without folded cells"}};
+    {"harmonic", {}, "lines of a harmonic map (as heat would flow from side to side), without folded cells"}};
 inline constexpr Option grid_method{.name = "grid-method",
                                     .key = "method",
                                     .choices = grid_methods,
@@ -43,8 +43,8 @@ inline constexpr Option line_grading{
     .key = "to_bends",
     .value = "0-0.9",
     .range = Range{0, 0.9},
-    .help = "share of the lines of the grid that go where the part bends; the others lie evenly. Half of them suit a "
-            "flat part with narrow bends (of one patch only)",
+    .help = "share of the grid lines that are moved to the bends; the others are evenly spaced. 0.5 suits a flat part "
+            "with narrow bends (of one patch only)",
     .label = "Lines to bends"};
 inline constexpr Option even_cells{
     .name = "even-cells",
@@ -91,7 +91,7 @@ inline constexpr Option max_control_points{
     .name = "max-control-points",
     .key = "max_control_points",
     .range = Range{16, 4'000'000},
-    .help = "of the surface within a tolerance: the fit ends there even if the tolerance is not reached",
+    .help = "of the surface within a tolerance: the fit stops there even if the tolerance is not reached",
     .label = "Max control points",
     .place = "the step NURBS surface"};
 inline constexpr Option fill_holes{
@@ -128,8 +128,8 @@ inline constexpr Option patch_edges{
 inline constexpr Option smooth_joins{
     .name = "smooth-joins",
     .key = "smooth_joins",
-    .help = "of patches: take the angles out of their joins, as far as the tolerance allows; edges of the part (joins "
-            "with more than 10 degrees) stay",
+    .help = "of patches: smooth their joins, as far as the tolerance allows; edges of the part (joins with more than "
+            "10 degrees) stay sharp",
     .label = "Smooth joins",
     .place = "the step NURBS surface"};
 

@@ -28,7 +28,7 @@ expect 2 "there is no part 'Roof'" "$spia" run --part Roof "$deck" --out "$out/r
 expect 0 "0.8 mm thick as in the deck" "$spia" run --part lid "$deck" --out "$out/run" --formats csv --json "$out/run.json"
 grep -q '"sheet_thickness_mm": 0.8' "$out/run.json" || fail "the sheet is not 0.8 mm thick"
 expect 0 "20.32 mm thick as in the deck" "$spia" run --part lid --unit inch "$deck" --out "$out/run" --formats csv
-expect 0 "2 mm thick as asked for, not 0.8 mm" "$spia" run --part Row "$deck" --thickness 2 --out "$out/run" --formats csv
+expect 0 "2 mm thick as requested, not 0.8 mm" "$spia" run --part Row "$deck" --thickness 2 --out "$out/run" --formats csv
 expect 0 "two parts-dynain.k" "$spia" run --part Lid "$deck" --out "$out/back" --json "$out/back.json" \
     --formats dynain,nastran,mapping,blank-k,blank-bdf,blank-inp,blank-msh
 for file in -dynain.k -thickness.bdf -strains.csv -elements.csv -nodes.csv -blank.k -blank.bdf -blank.inp -blank.msh; do

@@ -120,11 +120,11 @@ expect_exit 1 "$spia" unfold "$part" --script "$out/one.json" --strict
 grep -q "is not flat" "$out.log" || fail "the shortcoming is not told"
 # what names must not do
 expect_exit 2 "$spia" unfold "$part" --auto --out "$out/named" --name ../esc
-grep -q "\"../esc\" is no name of a file" "$out.log" || fail "a name that leads out of the folder is not refused in words"
+grep -q "\"../esc\" is not a file name" "$out.log" || fail "a name that leads out of the folder is not refused in words"
 [ ! -e "$out/esc-blank.dxf" ] || fail "a name leads out of the folder"
 expect_exit 2 "$spia" run "$part" --out "$out/named" --name 'a\b'
 expect_exit 2 "$spia" run "$out/not-there.obj" --out "$out/named" --name a/b
-grep -q "is no name of a file" "$out.log" || fail "the name is refused after the part is read"
+grep -q "is not a file name" "$out.log" || fail "the name is refused after the part is read"
 esc=$'\033'
 echo '{"steps": [{"name": "a\u001b]0;owned\u0007\u009b2Jz\u00e9", "freed": {"regions": ["region 6", "bend 1"]}, "fixed": {"regions": ["region 4"]}}]}' > "$out/escapes.json"
 expect_exit 0 "$spia" unfold "$part" --script "$out/escapes.json"
