@@ -373,9 +373,9 @@ private:
             canvas_.line({x, bottom, 0}, {x, bottom + 5, 0}, {.colour = ink, .width = 1, .hidden = false});
             canvas_.text(percent(level, digits), x, bottom + 20, 10, ink, Canvas::Align::centre);
         }
-        canvas_.text(fmt::format("least {} %", percent(all.least, digits + 1)), left, top - 8, 10, pale_ink);
+        canvas_.text(fmt::format("min. {} %", percent(all.least, digits + 1)), left, top - 8, 10, pale_ink);
         canvas_.text("thinning in %", panel_width, top - 8, 11.5, ink, Canvas::Align::centre);
-        canvas_.text(fmt::format("greatest {} %", percent(all.greatest, digits + 1)), right, top - 8, 10, pale_ink,
+        canvas_.text(fmt::format("max. {} %", percent(all.greatest, digits + 1)), right, top - 8, 10, pale_ink,
                      Canvas::Align::right);
     }
 

@@ -47,8 +47,7 @@ CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
     if (verdict.face < 0) {
         verdict.kind = CrackVerdict::Kind::unknown;
         verdict.text = fmt::format(
-            "Whether it cracks cannot be told: there is no forming limit curve for {}. The greatest thinning is "
-            "{:.1f} %.",
+            "Cracking cannot be judged: there is no forming limit curve for {}. The maximum thinning is {:.1f} %.",
             session.options.flatten.material.name, std::max(0., 100 * face.thinning.maxCoeff()));
         return verdict;
     }
@@ -74,10 +73,10 @@ CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
     const Eigen::VectorXd& left = limits.zones.distance;
     const auto untold = std::count_if(left.begin(), left.end(), [](double each) { return !std::isfinite(each); });
     if (untold > 0)
-        verdict.text += fmt::format(" It cannot be told for {}, whose sheet has no forming limit curve.",
+        verdict.text += fmt::format(" It cannot be judged for {}, whose sheet has no forming limit curve.",
                                     counted(untold, "face", "faces"));
     if (above == 0 && near == 0)
-        verdict.text += " Bending over radii is not counted.";
+        verdict.text += " Bending strains at radii are not included.";
     if (!session.blank->report.whole())
         verdict.text += " The result has not converged, so this is a guess.";
     return verdict;

@@ -39,9 +39,9 @@ std::string attempts_section(const Session& session, const ReportReader& reader)
         rows += rows_of(session.surface->fit->attempts, "Surface", reader);
     if (rows.empty())
         return "";
-    return fmt::format("<section class=\"whole\"><h2>Attempts</h2>\n<table class=\"spots\"><tr><th></th>"
-                       "<th style=\"text-align:left\">Tried in this order, the one taken in bold</th>"
-                       "<th style=\"text-align:left\">What came of it</th><th>s</th></tr>\n{}</table></section>\n",
+    return fmt::format("<section class=\"whole\"><h2>Attempts</h2>\n<table class=\"spots\"><tr><th></th><th "
+                       "style=\"text-align:left\">Tried in this order, the one taken in bold</th><th "
+                       "style=\"text-align:left\">Result</th><th>s</th></tr>\n{}</table></section>\n",
                        rows);
 }
 

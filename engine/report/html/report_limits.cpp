@@ -95,10 +95,10 @@ std::string spot_table(const LimitsResult& limits, const PartFile& part, LengthU
     if (rows.empty())
         return "";
     return fmt::format(
-        "<table class=\"spots\"><tr><th>Worst spot</th><th>Margin, points</th><th>Major strain</th>"
-        "<th>Minor strain</th><th>Thinning, %</th><th>At x, y, z, {}</th><th>Face of the file</th></tr>\n"
-        "{}</table>\n<p>Margin: percentage points of engineering major strain that are left up to the forming limit curve, "
-        "below 0 beyond it. Thinning: below 0 the sheet became thicker.</p>\n",
+        "<table class=\"spots\"><tr><th>Worst spot</th><th>Margin, points</th><th>Major strain</th><th>Minor "
+        "strain</th><th>Thinning, %</th><th>At x, y, z, {}</th><th>Face of the file</th></tr>\n{}</table>\n<p>Margin: "
+        "percentage points of engineering major strain below the forming limit curve; negative beyond it. Thinning: "
+        "negative where the sheet became thicker.</p>\n",
         length_word(lengths), rows);
 }
 

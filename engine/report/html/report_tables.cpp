@@ -153,7 +153,7 @@ std::string tiles(const Session& session, const ResultFigures& figures, LengthUn
     text += tile("Blank", fmt::format("{} \u00d7 {}", in.round(size[0], 1), in.round(size[1], 1)), unit,
                  "area " + in.area(figures.blank.area));
     text += tile("Maximum thinning", fixed(100 * sheet.thinning[1], 1), "%",
-                 fmt::format("least {} %", fixed(100 * sheet.thinning[0], 1)));
+                 fmt::format("minimum {} %", fixed(100 * sheet.thinning[0], 1)));
     text +=
         tile("Thickness", fmt::format("{} \u2013 {}", in.fine(sheet.thickness[0], 2), in.fine(sheet.thickness[1], 2)),
              unit, "sheet " + in.text(session.options.flatten.thickness));
@@ -366,7 +366,7 @@ std::string assumptions(const Session& session, LengthUnit lengths)
     const FlattenOptions& options = session.options.flatten;
     const Material& material = options.material;
     std::string rows = row("Material", material.name);
-    rows += row("Its source", material.source.empty() ? "not given" : material.source);
+    rows += row("Source", material.source.empty() ? "not given" : material.source);
     rows += html_row("Hardening", law(material.hardening));
     rows +=
         row("Elasticity", fmt::format("E = {} MPa, \u03bd = {:.3g}", grouped(material.young_MPa), material.poisson));
@@ -396,11 +396,11 @@ std::string assumptions(const Session& session, LengthUnit lengths)
     if (session.options.steps && !session.options.steps->polish)
         rows += row("Method",
                     "region by region onto faces in space, the outermost first; strains from the flat sheet to the "
-                    "part by total deformation theory: the path of forming, bending and springback are not in it");
+                    "part by total deformation theory: forming path, bending and springback are not included");
     else
         rows += row("Method",
-                    "one step from the part back to the flat sheet, total deformation theory: the path of forming, "
-                    "bending and springback are not in it");
+                    "one step from the part back to the flat sheet, total deformation theory: forming path, bending "
+                    "and springback are not included");
     rows +=
         row("Equations", session.options.steps && !session.options.steps->polish ? session.blank->report.reason
                                                                                  : equations(session.blank->report));

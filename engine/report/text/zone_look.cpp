@@ -18,7 +18,7 @@ Look look(Zone zone)
     case Zone::risk: return {"Risk", 0xe8590c};
     case Zone::marginal: return {"Marginal", 0xf2b01e};
     case Zone::excessive_thinning: return {"Excessive thinning", 0xa8871f};
-    case Zone::strong_thickening: return {"Strong thickening", 0x6a3fa0};
+    case Zone::strong_thickening: return {"Excessive thickening", 0x6a3fa0};
     case Zone::wrinkling_tendency: return {"Wrinkling tendency", 0x2f6fc4};
     case Zone::low_strain: return {"Low strain", 0x8a93a0};
     case Zone::safe: return {"Safe", 0x3f9142};

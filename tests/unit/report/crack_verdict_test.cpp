@@ -46,7 +46,7 @@ TEST(CrackVerdict, ASafePartSaysHowMuchOfTheLimitItUses)
     EXPECT_NEAR(verdict.share, 0.62, 1e-12);
     EXPECT_EQ(verdict.face, 0);
     EXPECT_THAT(verdict.text, HasSubstr("No cracks expected: the greatest strain is 62 % of the forming limit."));
-    EXPECT_THAT(verdict.text, testing::EndsWith(" Bending over radii is not counted."));
+    EXPECT_THAT(verdict.text, testing::EndsWith(" Bending strains at radii are not included."));
 }
 
 TEST(CrackVerdict, BelowTheLimitByLessThanTheMarginIsAtTheLimit)
@@ -83,7 +83,7 @@ TEST(CrackVerdict, WithoutACurveItSaysThatItCannotTell)
 {
     const CrackVerdict verdict = crack_verdict(stretched(0.5, 0.1, {}));
     EXPECT_EQ(verdict.kind, CrackVerdict::Kind::unknown);
-    EXPECT_THAT(verdict.text, HasSubstr("cannot be told"));
+    EXPECT_THAT(verdict.text, HasSubstr("cannot be judged"));
     EXPECT_THAT(verdict.text, HasSubstr("5.0 %"));
     EXPECT_EQ(crack_verdict(Session{}).kind, CrackVerdict::Kind::none);
 }
@@ -99,7 +99,7 @@ TEST(CrackVerdict, SaysWhatItDoesNotKnow)
     blank->report.system = SolvedSystem::relaxed;
     session.blank = blank;
     EXPECT_THAT(crack_verdict(session).text,
-                HasSubstr("It cannot be told for 1 face, whose sheet has no forming limit curve."));
+                HasSubstr("It cannot be judged for 1 face, whose sheet has no forming limit curve."));
     EXPECT_THAT(crack_verdict(session).text, HasSubstr("The result has not converged, so this is a guess."));
 }
 
