@@ -235,7 +235,7 @@ double outline_over_square(const GridContext& context)
     if (!follows_outline(grid, context.blank.overlaps_itself())) {
         if (const auto [vertex, angle_deg] = widest_vertex(*context.filled); angle_deg > 360)
             throw InputError(fmt::format(
-                "the blank lies on itself around boundary vertex {} (inner angle {:.0f} degrees), and the cells of a "
+                "the blank overlaps itself around boundary vertex {} (inner angle {:.0f} degrees), and the cells of a "
                 "{} x {} grid cannot turn around such a place; cut the part there into two",
                 number(vertex), angle_deg, m, n));
         throw InputError(fmt::format("the outline of the blank is too intricate for a {} x {} grid: the border nodes, "

@@ -194,7 +194,7 @@ void require_plain(const std::vector<std::vector<int>>& loops, const Blank& blan
         return;
     const int v = crossing.front().edge[0];
     throw InputError(
-        fmt::format("the blank lies on itself, or its border touches itself, near boundary vertex {}: it cannot be "
+        fmt::format("the blank overlaps itself, or its border touches itself, near boundary vertex {}: it cannot be "
                     "divided into patches; cut the part there into two",
                     file_number.empty() ? v : file_number[size_t(v)]));
 }

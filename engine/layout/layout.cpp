@@ -73,7 +73,7 @@ void add_cuts(PlaneGraph& graph, const Blank& blank, const LayoutOptions& option
                         if (p != r && p != s && q != r && q != s && segments_meet(p, q, r, s))
                             throw InputError(
                                 fmt::format("the cut between the vertices {} and {} crosses the border or another cut; "
-                                            "end it there, or give more vertices of the way around",
+                                            "end it there, or give more vertices of a path around it",
                                             number(run[size_t(a)]), number(run[size_t(a) + 1])));
                     }
             for (const bool at_end : {false, true}) {
@@ -82,8 +82,8 @@ void add_cuts(PlaneGraph& graph, const Blank& blank, const LayoutOptions& option
                 if (const auto& border = graph.border[size_t(v)];
                     border && !leads_inside(border->before, graph.vertex[size_t(v)], border->after, next))
                     throw InputError(fmt::format(
-                        "the cut between the vertices {} and {} leaves the sheet; give more vertices of the "
-                        "way around",
+                        "the cut between the vertices {} and {} leaves the sheet; give more vertices of a path within "
+                        "it",
                         number(run.front()), number(run.back())));
             }
             graph.curve.push_back(std::move(curve));

@@ -62,8 +62,8 @@ FormingLimitCurve keeler_brazier(double thickness, double n)
         throw InputError(fmt::format("no forming limit for a sheet of {} mm; give its thickness in mm", thickness));
     if (!(n > 0 && n < 1))
         throw InputError(
-            fmt::format("no forming limit for n = {:.4g}: the sheet necks at once, or the hardening law is "
-                        "no real one; give a curve by points",
+            fmt::format("no forming limit for n = {:.4g}: the sheet necks at once, or the hardening law is not "
+                        "realistic; give a curve by points",
                         n));
     const double percent = (23.3 + 14.13 * thickness) * std::min(n, largest_n) / largest_n;
     const double flc0 = percent / 100, plane = logarithmic_strain(flc0);

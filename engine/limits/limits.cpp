@@ -160,8 +160,8 @@ std::optional<FormingLimitCurve> curve_for(const Material& material, double thic
     if (options.source == Source::automatic && !known.minor.empty())
         return curve_through(known.minor, known.major, true, material.name);
     if (options.source == Source::automatic && !is_steel(material)) {
-        notes.push_back(fmt::format("no forming limit curve: Keeler-Brazier is made for low-carbon steel, and {} is "
-                                    "none; give measured points",
+        notes.push_back(fmt::format("no forming limit curve: Keeler-Brazier is made for low-carbon steel, which {} is "
+                                    "not; give measured points",
                                     material.name));
         return {};
     }

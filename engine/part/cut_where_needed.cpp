@@ -105,8 +105,8 @@ PartFile cut_where_needed(PartFile part, SeamOptions seam, const PolygonSoup& fi
             seam = {SeamOptions::Mode::given, corners->path};
             unrolls = fmt::format(" it unrolls without strain now, where it lacked {}", describe(*corners));
         } else
-            part.doubts.push_back(part.notes.emplace_back("there are no corners to be cut: it unrolls as it is, or is "
-                                                          "curved elsewhere too"));
+            part.doubts.push_back(part.notes.emplace_back("there are no corners to cut: it unrolls uncut, or is curved "
+                                                          "elsewhere too"));
     } else
         seam = in_mesh(std::move(seam), part, file);
     CutPart cut = cut_open(part.mesh, seam);
@@ -156,8 +156,8 @@ std::optional<Finding> closed_corners(const PartFile& part, const SeamOptions& s
         where.count,
         where.first,
         fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", describe(*corners)),
-        fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain, if it does not lie on "
-                    "itself then ({})",
+        fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain, unless it then overlaps "
+                    "itself ({})",
                     corners->length, mention(option::seam, "corners")),
         where.where,
         std::move(place)};

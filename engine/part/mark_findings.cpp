@@ -128,8 +128,8 @@ Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, 
                           fmt::format("{:.4g} mm {} on the {} skin", mark.depth, mark.raised ? "high" : "deep",
                                       of_skin(sheet.side[size_t(mark.face)]))});
     return note_on(marked,
-                   fmt::format("{} of the sheet, {}, {} passed over: what is laid flat is the skin without {} (marks "
-                               "of up to {:.2g} of the thickness, {:.4g} mm, are); the first is",
+                   fmt::format("{} of the sheet, {}, {} ignored: the skin is laid flat without {} (as are marks of up "
+                               "to {:.2g} of the thickness, {:.4g} mm); the first is",
                                counted(marks.size(), "mark or step on a skin", "marks or steps on the skins"),
                                depths(marks), marks.size() == 1 ? "is" : "are", marks.size() == 1 ? "it" : "them",
                                deepest_mark, deepest_mark * sheet.thickness));
@@ -147,7 +147,8 @@ Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, SheetSide sid
                                "flat has {}{}; the first is a {}",
                                counted(marked.size(), "hole is wider", "holes are wider"),
                                laid_flat(holes, int(marked.size()), taken, side, thickness),
-                               drawn ? ", and circles of the marks show where to sink" : "", marked.front().what));
+                               drawn ? ", and circles among the marks show where to countersink or counterbore" : "",
+                               marked.front().what));
 }
 
 } // namespace spia

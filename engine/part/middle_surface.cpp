@@ -122,7 +122,8 @@ Remarks on_open_sinks(const std::vector<OpenSink>& open, Skin taken, SheetSide s
                                             "hole below",
                                             of_skin(side)));
     if (!below.empty())
-        remarks.notes.push_back(counted_open(below) + ": the hole below is laid flat, marks do not show where to sink");
+        remarks.notes.push_back(counted_open(below) + ": the hole below is laid flat, and no marks show where to "
+                                                      "countersink or counterbore");
     return remarks;
 }
 

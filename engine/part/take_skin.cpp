@@ -203,9 +203,9 @@ Remarks on_hollow(const TriMesh& mesh, const std::string& why)
 {
     Remarks remarks;
     if (seems_thin_solid(mesh))
-        remarks.doubt(fmt::format("most of it lies opposite to another part of itself, as in a solid of sheet; "
-                                  "but {}. It is taken as a hollow body; if it is a solid of sheet, choose the "
-                                  "skin that stands for it ({}) for the reason to refuse it",
+        remarks.doubt(fmt::format("most of it lies opposite to another part of itself, as in a sheet-metal solid; but "
+                                  "{}. It is taken as a hollow body; if it is a sheet-metal solid, choose the skin "
+                                  "that stands for it ({}) to see why it is refused",
                                   why, mention(option::skin, "middle")));
     return remarks;
 }
@@ -214,8 +214,8 @@ Remarks on_hollow(const TriMesh& mesh, const std::string& why)
 std::string either(const ThinSolid& sheet)
 {
     return fmt::format(
-        "a solid of sheet {:.6g} mm thick and a hollow body of its size are the same closed surface, and "
-        "the file does not say which it is; the sheet would be {:.2g} times as thick as it is wide",
+        "a sheet-metal solid {:.6g} mm thick and a hollow body of its size are the same closed surface, and the file "
+        "does not say which it is; the sheet would be {:.2g} times as thick as it is wide",
         sheet.thickness, proportion(sheet));
 }
 
@@ -269,9 +269,9 @@ Remarks on_border(const TriMesh& middle, const GivenSolid& solid, double toleran
     if (least.beside < 0)
         wrong.push_back(fmt::format("too large by up to {:.2g} mm", -least.beside));
     remarks.doubt(fmt::format(
-        "the edge of the middle surface is beside that of the solid at {}, where the blank is {}: at {} mm. Compare the "
-        "outline there with the part and correct it by hand, or draw that edge square to the sheet, without what is sunk "
-        "or rounded at both skins",
+        "the edge of the middle surface is off that of the solid at {}, where the blank is {}: at {} mm. Compare the "
+        "outline there with the part and correct it by hand, or model that edge square to the sheet, without recesses "
+        "or rounds at both skins",
         counted(off.size(), "place", "places"), fmt::join(wrong, " and "), place_text(places_of(off))));
     return remarks;
 }
@@ -280,8 +280,8 @@ Remarks on_oblique_holes(const SkinMesh& middle)
 {
     Remarks remarks;
     if (!middle.oblique.empty())
-        remarks.notes.push_back(fmt::format("{} the sheet askew, at {} mm: what is laid flat is where it is in the "
-                                            "middle of the sheet, and its walls are to be made after cutting",
+        remarks.notes.push_back(fmt::format("{} the sheet at an angle, at {} mm: the blank has the section at "
+                                            "mid-thickness, and the slanted walls are to be machined after cutting",
                                             counted(middle.oblique.size(), "hole crosses", "holes cross"),
                                             place_text(middle.oblique)));
     return remarks;
@@ -320,8 +320,8 @@ Remarks on_wide_holes(const std::vector<SunkHole>& holes, SheetSide taken)
     Remarks remarks;
     if (const int wide = wider_at(holes, taken); wide > 0)
         remarks.doubt(fmt::format(
-            "{} at the {} skin, which is laid flat: cut so, what is sunk there is cut through; take "
-            "the middle surface, where a hole has its least diameter ({})",
+            "{} at the {} skin, which is laid flat: cut like this, the recesses there are lost; take the middle "
+            "surface, where a hole has its least diameter ({})",
             counted(wide, "hole is wider", "holes are wider"), of_skin(taken), mention(option::skin, "middle")));
     return remarks;
 }
@@ -339,9 +339,9 @@ Remarks on_bosses(const std::vector<SunkHole>& holes)
     Remarks remarks;
     if (places.empty())
         return remarks;
-    remarks.doubt(fmt::format("around {} something stands up from the sheet, up to {:.4g} mm, at {} mm, as a nut or a "
-                              "boss that was joined with it does: the blank is that of the sheet without it, its hole "
-                              "as wide as what is narrowest; leave it out of the model",
+    remarks.doubt(fmt::format("around {} something stands up from the sheet, up to {:.4g} mm, at {} mm, like a nut or "
+                              "a boss that was joined with it: the blank is that of the sheet without it, with the "
+                              "hole at its narrowest width; leave it out of the model",
                               counted(places.size(), "hole", "holes"), high, place_text(places)));
     return remarks;
 }
@@ -354,7 +354,7 @@ Remarks on_blind_holes(const std::vector<BlindHole>& holes)
         return remarks;
     const double depth = std::ranges::max_element(holes, {}, &BlindHole::depth)->depth;
     remarks.doubt(fmt::format("{} not go through the sheet, up to {:.3g} mm deep, at {} mm: the blank and its drawing "
-                              "have nothing there; mark it by hand, or leave it out of the model",
+                              "do not show it; mark it by hand, or leave it out of the model",
                               counted(holes.size(), "hole does", "holes do"), depth, place_text(places_of(holes))));
     return remarks;
 }
@@ -393,8 +393,8 @@ Remarks on_uneven_bends(const TriMesh& solid, const ThinSolid& sheet, SheetSide 
     const Eigen::Vector3d place = solid.position.col(solid.triangle(0, first.face));
     remarks.doubt(
         fmt::format("{} arcs of radius {:.4g} and {:.4g} mm on both skins of a sheet of {:.4g} mm, at {:.6g}, {:.6g}, "
-                    "{:.6g} mm{}: it is not as thick there, and inner radius and length are told and laid by the arc "
-                    "of the {} skin and the thickness elsewhere",
+                    "{:.6g} mm{}: the sheet is not as thick there, and inner radius and flat length are taken from the "
+                    "arc of the {} skin and the thickness elsewhere",
                     counted(bends.size(), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
                     place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : "", of_skin(laid)));
     return remarks;
@@ -419,8 +419,8 @@ Remarks on_skin(const PartFile& part, bool uneven_told)
                                     // thick
     if (part.cad && !uneven_told && solid.most > uneven * solid.thickness)
         remarks.doubt(fmt::format(
-            "the sheet is up to {:.4g} mm thick, {:.3g} times {:.4g} mm: where arcs of both skins have not one "
-            "axis, inner radius and length of a bend are those of a sheet as thick as elsewhere",
+            "the sheet is up to {:.4g} mm thick, {:.3g} times {:.4g} mm: where the arcs of both skins are not coaxial, "
+            "inner radius and flat length of a bend are those for the thickness elsewhere",
             solid.most, solid.most / solid.thickness, solid.thickness));
     const std::string least = fmt::format("{:.4g}", solid.least), most = fmt::format("{:.4g}", solid.most);
     remarks.notes.push_back(
@@ -549,7 +549,8 @@ TakenSkin take_skin(PartFile part, const ReadOptions& options, bool solid, const
         return {std::move(part)};
     const bool open = *part.doctor.boundary_loops > 0;
     if (open && !seems_thin_solid(part.mesh)) { // and a skin was asked for
-        part.notes.push_back("it is no solid but a surface already, and taken as it is: there is no skin to choose");
+        part.notes.push_back("it is a surface already, not a solid, and is taken unchanged: there is no skin to "
+                             "choose");
         return {std::move(part)};
     }
     try {
@@ -560,8 +561,8 @@ TakenSkin take_skin(PartFile part, const ReadOptions& options, bool solid, const
             return {std::move(part)};
         }
         if (open)
-            part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of "
-                                             "sheet; but {}. It is taken as a surface",
+            part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a sheet-metal "
+                                             "solid; but {}. It is taken as a surface",
                                              reason.what()));
         else
             refuse(part, reason, solid);

@@ -94,7 +94,7 @@ void require_no_tools(const ProcessConditions& process)
 {
     if (has_tools(process))
         throw InputError(
-            "the steps of unfolding leave out contact, drawbeads, pilots and the held edge; take these away, or solve "
+            "the steps of unfolding leave out contact, drawbeads, pilots and edge restraint; remove these, or solve "
             "the part in one step");
 }
 
@@ -442,17 +442,17 @@ Session judge_limits(Session session)
     const FlattenResult& flat = *session.blank;
     if (flat.necking_triangles > 0 && flat.report.trusted_strain < sheet.curve.trusted_strain)
         limits.notes.push_back(fmt::format(
-            "{} strained beyond {:.2f}{}, from which on the hardening curve was continued: in tension a real sheet gathers its strain "
-            "there and cracks earlier than the zones say",
+            "{} strained beyond {:.2f}{}, from which on the hardening curve was continued: in tension the strain of a "
+            "real sheet localizes there, and it cracks earlier than the zones say",
             counted(flat.necking_triangles, "face is", "faces are"), flat.report.trusted_strain,
             sheet.process.tailored.empty() ? "" : " (other grades beyond their own)"));
     if (!sheet.process.pilots.empty())
         limits.notes.push_back(
             "a pilot holds the sheet at single vertices: the strains of the faces around them are those of a point "
-            "load, and grow the finer the mesh");
+            "load, and increase with finer meshes");
     if (flat.report.process_share < 1)
         limits.notes.push_back(
-            fmt::format("the zones are those of {:.2g} % of the forces of the tools", 100 * flat.report.process_share));
+            fmt::format("the zones are those with {:.2g} % of the tool forces", 100 * flat.report.process_share));
     session.limits = std::make_shared<LimitsResult>(std::move(limits));
     return session;
 }

@@ -35,7 +35,7 @@ std::optional<Fault> strained_for_nothing(const UnfoldScript& steps, const Unfol
         if (strain <= most)
             continue;
         most = strain;
-        fault = Fault{k, fmt::format("it strains the sheet by {:.2g}, the blank at last only by {:.2g}", strain, end),
+        fault = Fault{k, fmt::format("it strains the sheet by {:.2g}, the final blank only by {:.2g}", strain, end),
                       run.blank.has_value()};
     }
     return fault;
@@ -91,10 +91,10 @@ AutomaticUnfolding automatic_unfolding(const TriMesh& part, const BendMap& map, 
         if (fault->has_blank && (!nearly || (!converged(nearly->run) && converged(now.run))))
             nearly = with_notes(now, given_up);
         const PlannedStep& failed = now.sequence.steps[fault->step];
-        const std::string what = fmt::format("\"{}\" did not work out ({}); planned anew ", failed.name, fault->why);
+        const std::string what = fmt::format("\"{}\" failed ({}); replanned ", failed.name, fault->why);
         if (failed.kind == UnfoldKind::unroll) {
             options.unroll = false;
-            given_up.push_back(what + "with all flattened at last");
+            given_up.push_back(what + "with everything flattened in the last step");
         } else {
             given_up.push_back(what + "with nothing on " + map.name(failed.carrier));
             options.carries_nothing.insert(

@@ -65,7 +65,7 @@ private:
     {
         const MeshPoint place = locator_.nearest(p);
         if (place.distance > 10 * locator_.tolerance())
-            throw InputError(fmt::format("the line \"{}\" leaves the blank at {:.6g}, {:.6g}, {:.3g} mm beside it",
+            throw InputError(fmt::format("the line \"{}\" leaves the blank at {:.6g}, {:.6g}, {:.3g} mm off it",
                                          line.name, p[0], p[1], place.distance));
         return part_.position(Eigen::all, part_.triangle.col(place.face)) * place.barycentric;
     }
@@ -159,8 +159,8 @@ private:
     {
         const ClosestPoint place = search_.nearest(p);
         if (place.distance > within_)
-            throw InputError(fmt::format("the line \"{}\" is {:.3g} mm beside the part at {}", line.name,
-                                         place.distance, place_text(p)));
+            throw InputError(fmt::format("the line \"{}\" is {:.3g} mm off the part at {}", line.name, place.distance,
+                                         place_text(p)));
         const Eigen::Vector2d q = flat_(Eigen::all, part_.triangle.col(place.face)) * place.barycentric;
         return {q[0], q[1], 0};
     }
@@ -173,8 +173,8 @@ private:
             const Eigen::Vector3d a = laid.point.col(k), b = laid.point.col((k + 1) % laid.point.cols());
             if ((b - a).norm() > stretch * (spacing_ + within_))
                 throw InputError(
-                    fmt::format("the line \"{}\" jumps on the blank from {:.6g}, {:.6g} to {:.6g}, {:.6g} mm: "
-                                "it crosses a gap of the part, or the sheet lies on itself there",
+                    fmt::format("the line \"{}\" jumps on the blank from {:.6g}, {:.6g} to {:.6g}, {:.6g} mm: it "
+                                "crosses a gap of the part, or the sheet overlaps itself there",
                                 drawn.name, a[0], a[1], b[0], b[1]));
         }
     }

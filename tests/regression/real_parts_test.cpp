@@ -119,7 +119,7 @@ TEST_P(RealPartsWithoutGrid, AreSolvedAndRefusedByTheGridWithTheReason)
 INSTANTIATE_TEST_SUITE_P(SharedData, RealPartsWithoutGrid,
                          testing::Values(Gridless{"mesh/maze.obj", SolvedSystem::strict, "winds too much"},
                                          Gridless{"mesh/camel_b.obj", SolvedSystem::energy,
-                                                  "lies on itself around boundary vertex"}),
+                                                  "overlaps itself around boundary vertex"}),
                          [](const auto& param) { return std::filesystem::path(param.param.file).stem().string(); });
 
 TEST(RealPartsRefused, TwoPiecesInOneFileAreNamed)

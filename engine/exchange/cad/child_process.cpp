@@ -135,8 +135,8 @@ public:
         idle_ = now > last_ ? std::chrono::milliseconds(0) : idle_ + step_;
         last_ = now;
         if (idle_ > most_)
-            throw InputError(fmt::format("reading it stands still, for {} seconds now; see whether its disk answers, "
-                                         "and try again or export it again",
+            throw InputError(fmt::format("reading it has made no progress for {} seconds; check that its disk "
+                                         "responds, and try again or export it again",
                                          std::chrono::duration_cast<std::chrono::seconds>(most_).count()));
     }
 
@@ -202,7 +202,8 @@ std::string result_of(Child& child, const ChildLog& log, const Progress& progres
                         limits.busy.count()));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
         throw InputError(
-            "reading it was ended from outside, perhaps for want of memory; close other programs, or export a part of it");
+            "reading it was ended from outside, perhaps because memory ran out; close other programs, or export a part "
+            "of it");
     throw InputError(fmt::format("reading it crashed ({} {}): it is damaged; export it again",
                                  WIFSIGNALED(status) ? "signal" : "code",
                                  WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)));

@@ -125,7 +125,7 @@ TwoColumns parse_two_columns(const std::string& text, const std::string& name)
     if (rest.starts_with("\xef\xbb\xbf")) // byte order mark
         rest.remove_prefix(3);
     if (rest.find('\0') != rest.npos)
-        throw InputError(fmt::format("{} is no text; save the table as CSV (UTF-8)", name));
+        throw InputError(fmt::format("{} is not a text file; save the table as CSV (UTF-8)", name));
     for (long count = 1; !rest.empty(); ++count) {
         const auto fail = [&](const std::string& what) {
             throw InputError(fmt::format("{}, line {}: {}", name, count, what));
@@ -140,7 +140,7 @@ TwoColumns parse_two_columns(const std::string& text, const std::string& name)
         if (line.empty() || (separator == 0 && !row))
             continue;
         if (!row)
-            fail(fmt::format("\"{}\" is no row of numbers; put # before remarks", line.substr(0, 40)));
+            fail(fmt::format("\"{}\" is not a row of numbers; put # before remarks", line.substr(0, 40)));
         if (separator == 0)
             separator = separator_of(line);
         const auto fields = split(line, separator);
@@ -151,7 +151,7 @@ TwoColumns parse_two_columns(const std::string& text, const std::string& name)
         for (size_t k = 0; k < 2; ++k) {
             const auto read = number(fields[k], separator);
             if (!read)
-                fail(fmt::format("\"{}\" is no finite number", fields[k].substr(0, 40)));
+                fail(fmt::format("\"{}\" is not a finite number", fields[k].substr(0, 40)));
             value[k] = *read;
         }
         table.first.push_back(value[0]);

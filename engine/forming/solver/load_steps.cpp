@@ -89,7 +89,7 @@ void describe_result(const SolveContext& context, const Eigen::Matrix2Xd& blank,
         report.system = SolvedSystem::continued;
     const std::string obstacle =
         report.trusted_strain > trusted_strain(context, Curve::continued, context.options.material.hardening)
-            ? fmt::format("the tools pull by up to {:.2g} % of what tears the sheet", 100 * context.pull)
+            ? fmt::format("the tool forces reach {:.2g} % of what tears the sheet", 100 * context.pull)
             : "pulled so hard a sheet that softens would neck";
     report.reason = describe_convergence(report, beyond ? obstacle : "", beyond ? asked : report.trusted_strain,
                                          context.part.vertices());
@@ -102,11 +102,11 @@ void add_share(SolveReport& report)
 {
     if (report.process_share == 0)
         report.reason +=
-            "; too much force: already with next to nothing of it no equilibrium was found on this mesh, and the "
-            "blank has none of it";
+            "; too much force: no equilibrium was found on this mesh with even a small share of it, and the blank is "
+            "computed without it";
     else if (report.process_share < 1)
         report.reason += fmt::format("; too much force: applied in steps, {:.2g} % of it was reached on this mesh, and "
-                                     "the blank has that much",
+                                     "the blank is computed with that",
                                      100 * report.process_share);
 }
 
@@ -115,7 +115,7 @@ Eigen::Matrix2Xd solve(SolveContext& context, const Eigen::Matrix2Xd& X, SolveRe
     if (!context.external.any()) {
         Eigen::Matrix2Xd blank = solve_at_once(context, X, report, progress);
         if (report.system == SolvedSystem::energy && !context.external.held.empty() && !context.anchored)
-            report.reason += "; the pilots hold nothing in it";
+            report.reason += "; the pilots have no effect";
         return blank;
     }
     Eigen::Matrix2Xd blank;
@@ -135,9 +135,9 @@ Eigen::Matrix2Xd solve(SolveContext& context, const Eigen::Matrix2Xd& X, SolveRe
         try_in_order({{"all forces at once", {}, at_once, in_equilibrium}, {"forces in load steps", {}, stepwise}});
     if (!in_equilibrium()) {
         report.process_share = 0;
-        report.reason += "; the forces of the tools are not in it";
+        report.reason += "; the tool forces are not applied";
         if (!context.external.held.empty() && !context.anchored)
-            report.reason += ", and the pilots hold nothing";
+            report.reason += ", and the pilots have no effect";
         return blank;
     }
     describe_result(context, blank, report);

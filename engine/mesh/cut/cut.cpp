@@ -264,15 +264,15 @@ CutPart cut_given(const TriMesh& part, const std::vector<std::vector<int>>& path
             throw InputError("a path of the seam has fewer than two vertices; give where it begins and where it ends");
         for (const int v : row)
             if (v < 0 || v >= part.vertices())
-                throw InputError(fmt::format("the seam names vertex {}, which the part has not", v));
+                throw InputError(fmt::format("the seam names vertex {}, which the part does not have", v));
         for (size_t i = 1; i < row.size(); ++i) {
             std::vector<char> target(size_t(part.vertices()), 0);
             target[size_t(row[i])] = 1;
             const EdgePaths paths = shortest_paths(graph, {row[i - 1]}, RimCost::as_long_as_it_is, target);
             if (paths.reached < 0)
                 throw InputError(
-                    fmt::format("no way leads along edges from vertex {} of the seam to vertex {}; leave out "
-                                "the repeated one, or choose vertices of one piece",
+                    fmt::format("no path along edges leads from vertex {} of the seam to vertex {}; leave out the "
+                                "repeated one, or choose vertices of one piece",
                                 row[i - 1], row[i]));
             mark_path(graph, paths, row[i], cut);
         }

@@ -44,7 +44,7 @@ void note_cracks(const PolygonSoup& soup, const std::vector<int>& same_as, Docto
     for (const int v : cracks->vertex)
         vertices.add(v);
     report.add(Fault::crack, Severity::note, vertices,
-               fmt::format("open edges lie up to {:.3g} mm beside others and seem to be the same: a crack along {} "
+               fmt::format("open edges lie up to {:.3g} mm off others and seem to be the same: a crack along {} "
                            "vertices (first: vertex {})",
                            cracks->widest, vertices.count, vertices.first),
                fmt::format("close the crack if the sheet is whole there ({})",
@@ -80,7 +80,7 @@ std::optional<PolygonSoup> join_edges(const PolygonSoup& soup, const std::vector
     report.add(Fault::coincident_vertex, Severity::repaired, vertices,
                fmt::format("{} on an edge of another face{} (first: vertex {}); that face was divided there",
                            counted(vertices.count, "vertex lies", "vertices lie"),
-                           widest > 0 ? fmt::format(", up to {:.3g} mm beside it", widest) : "", vertices.first),
+                           widest > 0 ? fmt::format(", up to {:.3g} mm off it", widest) : "", vertices.first),
                "");
     return result;
 }

@@ -52,7 +52,7 @@ std::string describe(const SheetBend& bend)
                            bend.up ? "up" : "down", bend.allowance, bend.deduction);
     return fmt::format("R {:.5g} mm, {:.5g} degrees {}, K {:.4g}, allowance {:.5g} mm, deduction {:.5g} mm{}",
                        bend.inner_radius, bend.angle * degrees, bend.up ? "up" : "down", bend.k, bend.allowance,
-                       bend.deduction, bend.laid ? "" : " (not laid by it)");
+                       bend.deduction, bend.laid ? "" : " (not applied)");
 }
 
 std::vector<std::string> describe(const BendTable& table)

@@ -96,7 +96,7 @@ NeutralFibre part_bends(const PartFile& part, double thickness, const std::optio
     // solids and CAD faces they are ours or stand for arcs.
     if (!k && !part.cad && !part.solid)
         keep_triangles(fibre,
-                       "the mesh has them; a K factor, also 0.5, lays arcs in their place (" +
+                       "the lengths are those of the mesh; a K factor, even 0.5, replaces them by arcs (" +
                            mention(option::k_factor) + ")",
                        "give a K factor (" + mention(option::k_factor) + ")");
     add_missing(fibre.laid, lengths_on_faces(part));

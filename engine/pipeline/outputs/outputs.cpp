@@ -51,7 +51,7 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
     require_file_name(options.name);
     if (format == "csv") {
         if (options.csv == CsvTables{false, false, false})
-            throw InputError("nothing is chosen of the CSV tables; take fields, outline or faces");
+            throw InputError("no CSV table is chosen; take fields, outline or faces");
         const std::string first = options.name.empty() ? "" : options.name + "-";
         std::vector<std::string> names;
         if (options.csv.fields)
@@ -67,7 +67,7 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
     if (is_iga_format(format))
         return iga_file_names(format, file_stem(session, options));
     if (format == "glb" && options.glb == GltfNodes{false, false, false, false, false})
-        throw InputError("nothing is chosen of the GLB file; take part, blank, quad_mesh, surface or control_net");
+        throw InputError("nothing is chosen for the GLB file; take part, blank, quad_mesh, surface or control_net");
     return {file_stem(session, options) + "." + format};
 }
 
@@ -91,7 +91,7 @@ DxfOptions dxf_options(const OutputOptions& options)
 void require_file_name(const std::string& name)
 {
     if (name.find_first_of(std::string_view("/\\\0", 3)) != std::string::npos || name == "." || name == "..")
-        throw InputError(fmt::format("\"{}\" is no name of a file; leave out folders", name));
+        throw InputError(fmt::format("\"{}\" is not a file name; leave out folders", name));
 }
 
 const std::vector<std::string>& usual_formats()

@@ -150,8 +150,8 @@ std::vector<std::string> shortcomings(const Session& session)
                 (flat.report.trusted_strain < session.options.flatten.curve.trusted_strain
                      ? ": there the hardening curve is extrapolated, and in tension the sheet necks"
                  : session.limits && session.limits->curve
-                     ? ", farther than the hardening curve was measured: their stress is extrapolated, whether they "
-                       "crack is told by the forming limits"
+                     ? ", farther than the hardening curve was measured: their stress is extrapolated, the forming "
+                       "limits say whether they crack"
                      : ", extrapolated: the sheet would neck or crack there"));
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} flipped", counted(flat.flipped_triangles, "triangle of the blank is",

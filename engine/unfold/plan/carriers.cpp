@@ -100,10 +100,10 @@ std::string Carriers::why_not(int region)
         return fmt::format("{} was to carry nothing", map_.name(region));
     const Found& it = found(region);
     if (!it.smooth)
-        return fmt::format("{} is no plane, cylinder or cone and turns too far for a smooth face over a plane",
+        return fmt::format("{} is not a plane, cylinder or cone and turns too far for a smooth face over a plane",
                            map_.name(region));
     return fmt::format(
-        "{} is no plane, cylinder or cone, and the smooth face through it is {:.3g} mm and {:.3g} deg beside it",
+        "{} is not a plane, cylinder or cone, and the smooth face through it is {:.3g} mm and {:.3g} deg off it",
         map_.name(region), it.smooth->distance_mm, it.smooth->angle * 180 / std::numbers::pi);
 }
 

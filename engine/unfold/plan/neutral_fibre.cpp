@@ -104,9 +104,9 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
         constexpr double nothing = 0.02; // of the thickness: triangles shorter than that are none
         const double laid = bend.inner_radius + k * t;
         if (laid < nothing * t)
-            keeps(fmt::format("K {:.3g} at an inner radius of {:.3g} mm leaves next to no length for the bend", k,
+            keeps(fmt::format("K {:.3g} at an inner radius of {:.3g} mm leaves almost no length for the bend", k,
                               bend.inner_radius),
-                  "give a greater K factor");
+                  "give a larger K factor");
         else
             result.radius = laid;
     }
@@ -115,7 +115,7 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
     constexpr double most_off = 0.02;
     const std::string finer = "give the part finer triangles there, or measure a trial bend";
     if (at.off + std::abs(at.radius - of_mesh) > most_off * of_mesh)
-        keeps("triangles leave the cylinder", finer);
+        keeps("triangles deviate from the cylinder", finer);
     set_k(bend, k, t);
     result.corner = laid_corners(part, at, result.radius);
     if (!std::all_of(result.corner.begin(), result.corner.end(), upright))
@@ -177,11 +177,11 @@ void compare_borders(const TriMesh& part, std::vector<Candidate>& candidates)
             if (candidates[c].bend.laid &&
                 (border[c].around > share * candidates[c].bend.allowance || border[c].along > share * border[c].all)) {
                 candidates[c].bend.laid = false;
-                candidates[c].bend.why_not = "it does not end on straight lines across the sheet, but goes over into "
-                                             "sheet that is formed otherwise";
+                candidates[c].bend.why_not = "it does not end on straight lines across the sheet, but runs into sheet "
+                                             "that is formed in another way";
                 candidates[c].bend.way_out =
-                    "give the bend reliefs where it ends, or measure a trial bend: the blank has there the lengths of "
-                    "the part";
+                    "add bend reliefs at its ends, or measure a trial bend: there the blank has the lengths of the "
+                    "part";
                 changed = true;
             }
     }
@@ -226,7 +226,7 @@ void note_no_effect(const TriMesh& part, BendTable& table)
     }
     const bool curves = area > speck * whole;
     if (curves)
-        table.notes.push_back(fmt::format("{:.3g} % of the sheet is curved but no bend over a cylinder: there the K "
+        table.notes.push_back(fmt::format("{:.3g} % of the sheet is curved but not a cylindrical bend: there the K "
                                           "factor has no effect, and the blank has the lengths of the middle surface "
                                           "(K 0.5)",
                                           100 * area / whole));

@@ -64,7 +64,7 @@ TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const s
                 const double off = (x - placed(face, developed(face, x))).norm();
                 if (!(off <= limit))
                     throw InputError(fmt::format(
-                        "the fixed face {} ends {:.3g} mm beside the target, where freed faces are joined to it; {}", f,
+                        "the fixed face {} ends {:.3g} mm off the target, where freed faces are joined to it; {}", f,
                         off, mention(advice::common_edge)));
                 fit.distance_mm = std::max(fit.distance_mm, off);
                 fit.angle = std::max(fit.angle, angle_between(outer_normal(face, x), normal) - chord);

@@ -75,7 +75,7 @@ std::vector<std::string> worse_in(const BlankFigures& steps, const BlankFigures&
         worse.push_back(fmt::format("{}, not {}", counted(polished.flipped, "flipped triangle", "flipped triangles"),
                                     steps.flipped));
     if (polished.overlaps > 0 && steps.overlaps == 0)
-        worse.push_back(fmt::format("it lies on itself at {}", counted(polished.overlaps, "place", "places")));
+        worse.push_back(fmt::format("it overlaps itself at {}", counted(polished.overlaps, "place", "places")));
     if (polished.strain > steps.strain + strain)
         worse.push_back(fmt::format("greatest strain {:.4f}, not {:.4f}", polished.strain, steps.strain));
     const auto distorted = [&](const char* what, double now, double before) {

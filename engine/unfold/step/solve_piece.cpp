@@ -109,8 +109,8 @@ std::vector<ContactRegion> rubbing(const FreedPiece& piece, const Eigen::Matrix3
         return {};
     if (now != piece.mesh.position)
         throw InputError(
-            fmt::format("the freed faces around face {} are joined to no fixed face and not as they are in the "
-                        "part: what rubs on them cannot be told; leave out the friction, or fix some",
+            fmt::format("the freed faces around face {} are joined to no fixed face and not as they are in the part: "
+                        "the friction on them cannot be determined; leave out the friction, or fix some",
                         piece.face[0]));
     // both sides together: the traction itself
     ContactRegion region{"the target", {}, traction.maxCoeff(), {}, 0.5, 2};
@@ -240,8 +240,8 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     const TargetSurface& target = picture.target;
     if (picture.ring && options.process.rolling)
         throw InputError(
-            fmt::format("the freed faces around face {} go all the way around the {}: seen square to it the "
-                        "rolling direction is another one everywhere; leave it out, or cut the part open",
+            fmt::format("the freed faces around face {} go all the way around the {}: projected onto it the rolling "
+                        "direction differs everywhere; leave it out, or cut the part open",
                         piece.face[0], name(target)));
 
     ExternalForces external;

@@ -25,8 +25,8 @@ Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, cons
 {
     std::optional<Eigen::Matrix2Xd> foot = unwound_piece(piece, now, target);
     if (!foot)
-        throw InputError(fmt::format("the freed faces around face {} go all the way around the {}: what rubs on it "
-                                     "cannot be told; free one side after the other",
+        throw InputError(fmt::format("the freed faces around face {} go all the way around the {}: its friction cannot "
+                                     "be determined; free one side after the other",
                                      piece.face[0], name(target)));
     const Eigen::Vector2d first = foot->col(piece.held.front());
     if (!std::holds_alternative<ConeFace>(target))

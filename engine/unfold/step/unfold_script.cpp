@@ -62,8 +62,7 @@ std::optional<TargetSurface> target_of(const TriMesh& now, const PlannedStep& st
 {
     std::optional<TargetSurface> target = step.pick.target;
     if (!target && step.carrying_lost)
-        throw InputError("the fixed faces of its target are not on the part any more; " +
-                         mention(advice::other_carriers));
+        throw InputError("the fixed faces of its target are no longer on the part; " + mention(advice::other_carriers));
     if (!target && (step.within_mm > 0 || step.offset_mm != 0 || step.kind == UnfoldKind::unroll)) {
         const std::vector<int>& faces = carrying_faces(step);
         if (faces.empty())
@@ -110,16 +109,15 @@ void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& 
     const TargetSurface face = turned_towards(target, now.position, edges).value_or(target);
     const std::optional<Eigen::Matrix2Xd> flat = unwound(face, now.position, edges);
     if (!flat)
-        throw InputError("the part goes all around the face that shall be unrolled; cut it open along a line first");
+        throw InputError("the part goes all around the face that is to be unrolled; cut it open along a line first");
     const Eigen::Matrix2Xd& places = *flat;
     for (int v = 0; v < now.vertices(); ++v) {
         const Eigen::Vector3d x = now.position.col(v);
         const double off = (x - placed(face, developed(face, x))).norm();
         if (off > std::max(2 * step.within_mm, beside * bounding_diagonal(part)))
             throw InputError(
-                fmt::format("vertex {} is {:.3g} mm beside the {} that shall be unrolled; lay its faces on "
-                            "it first",
-                            v, off, name(face)));
+                fmt::format("vertex {} is {:.3g} mm off the {} that is to be unrolled; lay its faces on it first", v,
+                            off, name(face)));
     }
     const PlaneFace plane = tangent_plane(face, places);
     for (int v = 0; v < now.vertices(); ++v)

@@ -52,7 +52,7 @@ void require_valid(const TriMesh& part, const Eigen::Matrix3Xd& state, const Fla
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", options.thickness));
     if (has_tools(options.process))
         throw InputError(
-            "binders, pads, drawbeads, pilots and a held edge act on the part as a whole; leave them out of the "
+            "binders, pads, drawbeads, pilots and edge restraint act on the part as a whole; leave them out of the "
             "local steps and apply them when the whole part is flattened; what rubs on a step's target belongs to its pick");
 }
 

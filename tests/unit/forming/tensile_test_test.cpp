@@ -229,7 +229,7 @@ TEST(TensileTest, WhatCannotBeATensileTestIsRefusedWithItsLine)
     EXPECT_THAT(refused("engineering\n0,1,200,3\n"), AllOf(HasSubstr("line 2"), HasSubstr("';'")));
     EXPECT_THAT(refused(""), HasSubstr("no row"));
     EXPECT_THAT(refused("engineering\nstrain;stress\n"), HasSubstr("no row"));
-    EXPECT_THAT(refused(std::string("engineering\n0.1;2\0\n", 19)), HasSubstr("no text"));
+    EXPECT_THAT(refused(std::string("engineering\n0.1;2\0\n", 19)), HasSubstr("not a text file"));
     EXPECT_THAT(refused(csv(steel, "strain;stress", ';')),
                 HasSubstr(mention(option::stress_measure, "engineering|true")));
     EXPECT_THAT(refused(csv(steel, "true and engineering", ';')),

@@ -55,7 +55,7 @@ TEST_F(ClosedCorners, WithoutAnyTheWishIsADoubt)
     const PartFile part = read(shapes::round_cup(), SeamOptions::Mode::corners);
     EXPECT_TRUE(part.seam.empty());
     ASSERT_EQ(part.doubts.size(), 1u);
-    EXPECT_THAT(part.doubts[0], HasSubstr("no corners to be cut"));
+    EXPECT_THAT(part.doubts[0], HasSubstr("no corners to cut"));
 }
 
 } // namespace spia

@@ -421,12 +421,12 @@ TEST_F(PartBends, ABendThatIsNotLaidIsAShortcomingWithItsPlaceAndAWayOut)
     for (const std::string& words :
          {std::string("R 0.01 mm"), std::string("90 degrees"),
           fmt::format("near {:.4g}, {:.4g}, ", bend.place[0], bend.place[1]),
-          std::string("is not laid with its allowance"), std::string("give a greater K factor")})
+          std::string("is not laid with its allowance"), std::string("give a larger K factor")})
         EXPECT_NE(text.find(words), std::string::npos) << text;
     const std::string inches = in_shown_lengths(text, LengthUnit::inch);
     EXPECT_NE(inches.find(fmt::format("near {:.4g}, ", bend.place[0] / 25.4)), std::string::npos) << inches;
     const Json report = parse_json(report_json(session, {}, 0), "report");
-    EXPECT_EQ(report["bend_table"]["bends"][0]["way_out"], "give a greater K factor");
+    EXPECT_EQ(report["bend_table"]["bends"][0]["way_out"], "give a larger K factor");
     EXPECT_EQ(report["shortcomings"].size(), said.size());
     EXPECT_TRUE(shortcomings(solved(write(solid))).empty()) << "K 0.5";
 }

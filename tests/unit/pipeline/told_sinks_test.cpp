@@ -42,7 +42,7 @@ TEST(SunkHoles, InABendAreToldAndDoubted)
                   "countersink, of a hole of 4 mm, on the outer skin; a bend, a border or another hole cuts it off");
         EXPECT_EQ(part.solid->marks.size(), 1u);
         ASSERT_EQ(part.doubts.size(), 2u);
-        EXPECT_NE(part.doubts[1].find("the edge of the middle surface is beside that of the solid"), std::string::npos);
+        EXPECT_NE(part.doubts[1].find("the edge of the middle surface is off that of the solid"), std::string::npos);
         EXPECT_NE(part.doubts[0].find("1 hole is sunk in a bend"), std::string::npos) << part.doubts[0];
         EXPECT_EQ(told->text.find("least diameter"), std::string::npos) << told->text << " but " << part.doubts[0];
         const auto skin_named = [](const std::string& text) {
@@ -119,7 +119,7 @@ TEST(SunkHoles, AtTheSkinThatIsLaidFlatAreDoubtedAndNotMarked)
                 EXPECT_NEAR(label.hole, 5, 1e-6);
             }
             const auto marked = [](const Finding& finding) {
-                return finding.text.find("circles of the marks show where") != finding.text.npos;
+                return finding.text.find("circles among the marks show where") != finding.text.npos;
             };
             EXPECT_EQ(std::ranges::count_if(part.doctor.findings, marked), !cut_wide) << int(skin) << left;
         }

@@ -184,7 +184,7 @@ TEST(AutomaticUnfolding, AStepThatDoesNotConvergeIsPlannedAnewOnlyIfThatConverge
     EXPECT_TRUE(no_better.run.blank);
     EXPECT_FALSE(no_better.run.states[0].converged);
     for (const std::string& note : no_better.sequence.notes)
-        EXPECT_EQ(note.find("planned anew"), std::string::npos) << note;
+        EXPECT_EQ(note.find("replanned"), std::string::npos) << note;
 }
 
 TEST(AutomaticUnfolding, AStepWithoutAResultIsPlannedAnew)
@@ -203,7 +203,7 @@ TEST(AutomaticUnfolding, AStepWithoutAResultIsPlannedAnew)
     EXPECT_EQ(unfolded.run.flipped, 0);
     EXPECT_EQ(unfolded.sequence.root, first.root);
     ASSERT_FALSE(unfolded.sequence.notes.empty());
-    EXPECT_NE(unfolded.sequence.notes.back().find("did not work out"), std::string::npos);
+    EXPECT_NE(unfolded.sequence.notes.back().find("failed ("), std::string::npos);
     EXPECT_EQ(unfolded.run.states.size(), unfolded.sequence.steps.size());
 }
 

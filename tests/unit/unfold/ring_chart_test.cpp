@@ -285,7 +285,7 @@ TEST(RingChart, FrictionAndTheRollingDirectionAreRefusedOnARing)
     options.process.rolling.reset();
     EXPECT_EQ(refusal(), "none");
     pick.friction = ContactRegion{"die", {}, 1, {}, 0.1, 2};
-    EXPECT_NE(refusal().find("what rubs on it cannot be told"), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find("its friction cannot be determined"), std::string::npos) << refusal();
 }
 
 } // namespace spia

@@ -133,7 +133,7 @@ TEST(SheetLines, WhatLeavesTheSheetIsRefusedAndNamed)
               std::string::npos);
     EXPECT_NE(fault([&] {
                   to_blank(part.mesh, part.flat, line({{10, 20, 0}, {10, 20, 9}}));
-              }).find("beside the part"),
+              }).find("off the part"),
               std::string::npos);
     EXPECT_NE(fault([&] {
                   to_part(part.mesh, part.flat, line({{10, 20, 0}}));

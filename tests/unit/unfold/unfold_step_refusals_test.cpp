@@ -60,7 +60,7 @@ TEST(UnfoldStep, WhatCannotBeUnfoldedIsRefusedWithItsFace)
     expect("is neither freed nor fixed and would be torn off", refusal(part, {flat, counted(40, 100)}));
     expect("the freed face 80 is joined to face 60",
            refusal(part, {counted(20, 40), counted(80, 120), fit_target(part, flat)->face}));
-    expect("ends 20 mm beside the target",
+    expect("ends 20 mm off the target",
            refusal(part, {flat, upright, PlaneFace{{0, 0, 20}, Eigen::Matrix<double, 3, 2>::Identity()}}));
     expect("joined to no fixed face; then only a plane can be their target, not a cylinder",
            refusal(part, {{}, counted(0, 120), CylinderFace{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 50, true}}));

@@ -82,7 +82,7 @@ TEST_F(UnfoldingSteps, AStepWithoutAResultSaysSoAndKeepsTheStatesBeforeIt)
     run();
     EXPECT_EQ(status(), (std::vector{done, failed, missing, missing, missing}));
     EXPECT_THAT(last(Severity::error), HasSubstr(fmt::format("Step 2 \"{}\" has no result", document.steps[1]->name)));
-    EXPECT_THAT(last(Severity::error), HasSubstr("7 mm beside the target"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("7 mm off the target"));
     EXPECT_THAT(last(Severity::error), HasSubstr("The states up to step 1 are kept"));
     EXPECT_THAT(last(Severity::error), HasSubstr("remove its offset")) << "what can be done here";
     EXPECT_EQ(step_position(state), 1);

@@ -61,7 +61,7 @@ TEST_F(ProposalRun, IsPlannedAnewWhereAStepDoesNotWorkOutAsByTheCommandLine)
     EXPECT_TRUE(all_steps_done(document));
     EXPECT_TRUE(still_proposed(document));
     const auto planned_anew = std::find_if(state.messages.begin(), state.messages.end(), [](const Message& message) {
-        return message.text.find("planned anew") != std::string::npos;
+        return message.text.find("replanned") != std::string::npos;
     });
     ASSERT_NE(planned_anew, state.messages.end());
     EXPECT_EQ(planned_anew->severity, Severity::hint);

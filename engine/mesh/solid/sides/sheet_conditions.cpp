@@ -142,9 +142,9 @@ void require_thin(const SolidInPieces& solid, double thickness, double area)
     const double width = std::sqrt(area / 2);
     const auto all = [](int) { return true; };
     if (thickness <= 0)
-        solid.refuse("it is no sheet: no two of its faces lie opposite to each other", solid.largest(all));
+        solid.refuse("it is not a sheet: no two of its faces lie opposite to each other", solid.largest(all));
     if (thickness > block * width)
-        solid.refuse(fmt::format("it is no thin sheet but a block: most of it is {:.4g} mm thick, at a surface like "
+        solid.refuse(fmt::format("it is not a thin sheet but a block: most of it is {:.4g} mm thick, at a surface like "
                                  "that of a plate {:.4g} mm wide",
                                  thickness, width),
                      solid.largest(all));
@@ -174,8 +174,8 @@ void require_two_sides(const SolidInPieces& solid, double thickness, double area
             }
         }
         const auto rim = [&](int p) { return solid.sides.side[size_t(p)] == PieceSide::rim; };
-        solid.refuse(fmt::format("it has not one thickness: {:.4g} mm is the one found most, but only {:.0f} % of its "
-                                 "surface can be taken into two skins so far apart{}",
+        solid.refuse(fmt::format("its thickness is not uniform: {:.4g} mm is the most frequent, but only {:.0f} % of "
+                                 "its surface can be split into two skins that far apart{}",
                                  thickness, 100 * skins / area,
                                  worst < 0 ? "; the largest face elsewhere is named"
                                            : fmt::format("; elsewhere it is {:.4g} mm thick",
@@ -212,7 +212,7 @@ void require_no_thin_floor(const SolidInPieces& solid, double thickness, double 
     if (!floor || floor->area < speck * area)
         return;
     const auto of_it = [&](int p) { return floor->piece[size_t(p)] != 0; };
-    solid.refuse(fmt::format("one of its sides has a pocket or a step, which is no countersink or counterbore of a "
+    solid.refuse(fmt::format("one of its sides has a pocket or a step, which is not a countersink or counterbore of a "
                              "round hole: over {:.4g} mm2 it is {:.4g} mm thick, and {:.4g} mm elsewhere{}",
                              floor->area, floor->thickness, thickness, how_deep(solid, floor->skin, thickness, of_it)),
                  solid.largest(of_it));
