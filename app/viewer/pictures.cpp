@@ -136,7 +136,7 @@ Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerStat
     ui.scale = scale;
     ui.fonts = gui.fonts();
     ActionQueue nobody;
-    Frame frame{model, state, nobody, ui, cache, {}, {}, {}};
+    Frame frame{model, {}, model.pickers(), state, nobody, ui, cache, {}, {}, {}};
     gui.frame([&] {
         ImDrawList* const draw = ImGui::GetBackgroundDrawList();
         const ImVec2 size{float(width), float(height)};
@@ -182,6 +182,8 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     constexpr int64_t many = 1 << 24; // pixels: fine enough without samples, and these need memory
     look.samples = int64_t(width) * height > many ? 1 : look.samples;
     Frame frame{model,
+                {},
+                model.pickers(),
                 quiet,
                 nobody,
                 aside,

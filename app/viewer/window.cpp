@@ -242,6 +242,8 @@ private:
         follow_cameras();
         Frame now{
             model_,
+            ViewEvents(model_),
+            model_.pickers(),
             model_.state(),
             queue_,
             ui_,

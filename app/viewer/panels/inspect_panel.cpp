@@ -317,7 +317,7 @@ void vertices_as_corners(Frame& frame)
         return;
     std::string why;
     try {
-        if (const std::vector<int>* outline = frame.model.pickers().ready_outline(session))
+        if (const std::vector<int>* outline = frame.pickers.ready_outline(session))
             corners_of(vertices, *outline, session.part->source_vertex);
         else
             why = "Finding the outline...";

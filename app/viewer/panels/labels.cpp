@@ -34,9 +34,8 @@ glm::dvec2 extent(ImFont* font, const std::string& text)
 Hidden hidden_in(Frame& frame, View view, glm::dvec2 size)
 {
     const bool of_other = view == View::part && shows_refused(frame.state);
-    const RayPicker* picker = view == View::blank || of_other
-                                  ? nullptr
-                                  : frame.model.pickers().ready_picker(frame.state.document.session, view);
+    const RayPicker* picker =
+        view == View::blank || of_other ? nullptr : frame.pickers.ready_picker(frame.state.document.session, view);
     if (!picker) // a flat sheet hides nothing
         return [](const glm::dvec3&) { return false; };
     const Camera& camera = frame.state.view.camera[size_t(view)];
@@ -116,7 +115,7 @@ const LabelPlaces& places_of(Frame& frame, View view, const Scene& scene, glm::d
                              !(moves && frame.state.document.session.part->mesh.triangles() > many_triangles);
     const auto isolines = with_values ? scene.isolines : nullptr;
     const Session& session = frame.state.document.session;
-    const bool picker = frame.model.pickers().ready_picker(session, view) != nullptr;
+    const bool picker = frame.pickers.ready_picker(session, view) != nullptr;
     if (places.part == session.part && places.picker == picker && places.camera == camera && places.size == size &&
         places.isolines == isolines && places.taken == taken && places.kept == scene.kept &&
         places.labels == scene.labels)

@@ -11,7 +11,7 @@ namespace spia::viewer {
 static const TriMesh* section_mesh(Frame& frame, bool on_blank)
 {
     const Session& session = frame.state.document.session;
-    return on_blank ? frame.model.pickers().mesh(session, View::blank) : session.part ? &session.part->mesh : nullptr;
+    return on_blank ? frame.pickers.mesh(session, View::blank) : session.part ? &session.part->mesh : nullptr;
 }
 
 const std::vector<SectionPiece>& section_of(Frame& frame)

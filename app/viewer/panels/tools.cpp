@@ -55,7 +55,7 @@ static bool corner_keys(Frame& frame)
                     (pressed(frame, GLFW_KEY_LEFT) || pressed(frame, GLFW_KEY_DOWN) ? 1 : 0);
     if (way == 0)
         return false;
-    const CornerTrack& track = frame.model.pickers().track(session);
+    const CornerTrack& track = frame.pickers.track(session);
     const bool to_turn = pressed(frame, GLFW_KEY_UP) || pressed(frame, GLFW_KEY_DOWN);
     const std::vector<int>& outline = to_turn && !track.sharp.empty() ? track.sharp : track.vertex;
     const std::array<int, 4>& corner = session.grid->boundary.corner;
@@ -182,9 +182,9 @@ void shortcuts(Frame& frame)
             if (session.blank)
                 frame.ui.show_export = true;
             else
-                frame.model.say(Severity::hint, frame.state.job.running
-                                                    ? "There is nothing to export yet: the blank is being computed."
-                                                    : "There is nothing to export yet: unfold the part first  (F6).");
+                frame.events.say(Severity::hint, frame.state.job.running
+                                                     ? "There is nothing to export yet: the blank is being computed."
+                                                     : "There is nothing to export yet: unfold the part first  (F6).");
         }
         if (pressed(GLFW_KEY_Q))
             frame.actions.push(Quit{});
@@ -197,8 +197,8 @@ void shortcuts(Frame& frame)
     else if (std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(), [](const KeyPress& press) {
                  return press.modifiers == 0 && press.key >= GLFW_KEY_A && press.key <= GLFW_KEY_Z;
              }))
-        frame.model.say(Severity::hint,
-                        "Letters choose tools when a view has the keyboard: click into one, or press F4.");
+        frame.events.say(Severity::hint,
+                         "Letters choose tools when a view has the keyboard: click into one, or press F4.");
     if (pressed(GLFW_KEY_LEFT_ALT) || pressed(GLFW_KEY_RIGHT_ALT))
         frame.ui.focus.reset(); // the menus have it
     if (pressed(GLFW_KEY_F4)) {

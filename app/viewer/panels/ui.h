@@ -28,6 +28,7 @@
 #include "app/viewer/panels/side_panels.h"
 #include "app/viewer/panels/steps/edited_region.h"
 #include "app/viewer/panels/theme.h"
+#include "app/viewer/panels/view_events.h"
 #include "app/viewer/views/scene_cache.h"
 #include "app/viewer/views/step_scene.h"
 #include "engine/report/text/lengths.h"
@@ -199,7 +200,9 @@ struct DrawnView {
 
 /// Everything a panel may look at and act through.
 struct Frame {
-    ViewerModel& model;
+    const ViewerModel& model;
+    ViewEvents events;
+    Pickers& pickers;
     const ViewerState& state;
     ActionQueue& actions;
     Ui& ui;

@@ -13,7 +13,7 @@ namespace {
 /// from then on.
 Camera centred(Frame& frame, View view, const Mouse& mouse, const Camera& camera)
 {
-    const RayPicker* picker = frame.model.pickers().ready_picker(frame.state.document.session, view);
+    const RayPicker* picker = frame.pickers.ready_picker(frame.state.document.session, view);
     const auto kept = kept_in(frame.state.view, view);
     Camera result = pan(camera, mouse.size / 2. - mouse.pixel, mouse.size);
     if (!picker)
@@ -167,8 +167,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const ImVec2 from{at.x, at.y + bar}, size{whole.x, std::max(1.f, whole.y - bar)};
     frame.ui.view_from[size_t(view)] = from;
     frame.ui.view_size[size_t(view)] = size;
-    if (!frame.ui.aside)
-        frame.model.resized(view, dvec(size), frame.ui.scale, frame.ui.covered[size_t(view)]);
+    frame.events.resized(view, dvec(size), frame.ui.scale, frame.ui.covered[size_t(view)]);
     const Scene shown = scene(view, frame.state, frame.cache, size.y / frame.ui.scale);
     const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
     ImGui::SetCursorScreenPos(from);
@@ -235,7 +234,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     navigate(frame, view, mouse);
     const bool points = mouse.inside && !ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2);
     if (points)
-        frame.model.hover(view, mouse.pixel, mouse.size, PickVertex{}.reach * frame.ui.scale);
+        frame.events.hover(view, mouse.pixel, mouse.size, PickVertex{}.reach * frame.ui.scale);
     const bool clicked = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
     if (clicked && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
         frame.ui.focus = view, frame.ui.by_keys = false;
@@ -323,7 +322,7 @@ void view_area(Frame& frame)
                                 // mouse's
     if (const auto only = frame.state.view.maximised) {
         if (!one_view(frame, *only, at, size))
-            frame.model.hover_nothing();
+            frame.events.hover_nothing();
         end_drags(frame);
         return;
     }
@@ -349,7 +348,7 @@ void view_area(Frame& frame)
     place(View::quads, 0, y + gap / 2, left, lower);
     place(View::surface, x + gap / 2, y + gap / 2, right, lower);
     if (!points)
-        frame.model.hover_nothing();
+        frame.events.hover_nothing();
     end_drags(frame);
 }
 

@@ -31,7 +31,7 @@ void drag_corners(Frame& frame, const Mouse& mouse)
         }
     if (!ui.dragged_corner)
         return;
-    const int vertex = nearest_boundary_vertex(frame.model.pickers().track(session), camera, mouse.pixel, mouse.size);
+    const int vertex = nearest_boundary_vertex(frame.pickers.track(session), camera, mouse.pixel, mouse.size);
     const bool down = ImGui::IsMouseDown(0);
     const int now = session.grid->boundary.corner[size_t(*ui.dragged_corner)];
     ui.corner_moved |= glm::length(mouse.pixel - ui.corner_taken_at) > 3 * ui.scale;
@@ -98,7 +98,7 @@ std::optional<Eigen::Vector3d> place_of_line(Frame& frame, View view, const Mous
     const Session& session = frame.state.document.session;
     const Camera& camera = frame.state.view.camera[size_t(view)];
     const TriMesh& part = session.part->mesh;
-    Pickers& pickers = frame.model.pickers();
+    Pickers& pickers = frame.pickers;
     const RayPicker* picker = pickers.picker(session, view);
     if (!picker)
         return std::nullopt;
@@ -128,7 +128,7 @@ std::string no_measuring(Frame& frame, View view)
         return "The file that was refused cannot be measured: go back to the part first, in the step Part.";
     if (view == View::part && step_position(state) > 0)
         return "A partly unfolded part cannot be measured: move the slider back to the formed part.";
-    if (frame.model.pickers().measuring_mesh(state, view))
+    if (frame.pickers.measuring_mesh(state, view))
         return "";
     if (view == View::quads && state.document.session.options.patches)
         return "The quads of patches cannot be measured; measure in the view of the surface.";
@@ -140,10 +140,10 @@ void measure_at(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
 {
     const ViewSettings& settings = frame.state.view;
     if (const std::string why = no_measuring(frame, view); !why.empty()) {
-        frame.model.say(Severity::hint, why);
+        frame.events.say(Severity::hint, why);
         return;
     }
-    Pickers& pickers = frame.model.pickers();
+    Pickers& pickers = frame.pickers;
     const RayPicker* picker = pickers.measuring_picker(frame.state, view);
     if (!picker)
         return;
@@ -168,7 +168,7 @@ std::vector<glm::dvec2> clicked_places(Frame& frame, View view, glm::dvec2 size)
     std::vector<glm::dvec2> pixels;
     if (frame.ui.measuring.empty() || frame.ui.measuring_in != view)
         return pixels;
-    const TriMesh* mesh = frame.model.pickers().measuring_mesh(frame.state, view);
+    const TriMesh* mesh = frame.pickers.measuring_mesh(frame.state, view);
     for (const Probe& probe : frame.ui.measuring) {
         if (!mesh || probe.face >= mesh->triangles())
             return {};
@@ -262,7 +262,7 @@ void click_with_tool(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
                                   settings.tool == Tool::smooth_region});
         return;
     case Tool::probe: {
-        Pickers& pickers = frame.model.pickers();
+        Pickers& pickers = frame.pickers;
         const RayPicker* picker = pickers.picker(session, view);
         if (!picker)
             return;

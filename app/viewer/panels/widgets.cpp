@@ -131,8 +131,8 @@ static bool take_typed(Frame& frame, std::string_view label, const std::string& 
     const auto number = typed_number_of(text, {field_name(label).unit, label, percent ? "%" : ""});
     if (!number) {
         frame.ui.number_refused = true;
-        frame.model.say(Severity::error, refused_number(text, label, shown_number(value, format)),
-                        about_refusal(frame.state));
+        frame.events.say(Severity::error, refused_number(text, label, shown_number(value, format)),
+                         about_refusal(frame.state));
         return false;
     }
     const bool other = *number != value;
