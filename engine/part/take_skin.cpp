@@ -22,6 +22,7 @@
 #include "engine/mesh/solid/sheet_or_hollow.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/part_options.h"
+#include "engine/options/sheet_options.h"
 #include "engine/part/mark_findings.h"
 #include "engine/part/middle_surface.h"
 
@@ -400,6 +401,20 @@ Remarks on_uneven_bends(const TriMesh& solid, const ThinSolid& sheet, SheetSide 
     return remarks;
 }
 
+/// Of wedges, and of solids that a simulation of forming has thinned.
+Remarks on_taper(const ThinSolid& sheet)
+{
+    constexpr double uneven = 0.1; // of the thickness; chords of drawn solids come to 0.06
+    Remarks remarks;
+    if (sheet.thin_tenth < (1 - uneven) * sheet.thickness || sheet.thick_tenth > (1 + uneven) * sheet.thickness)
+        remarks.doubt(
+            fmt::format("the thickness varies: a tenth of the sheet is thinner than {:.4g} mm, a tenth is "
+                        "thicker than {:.4g} mm, and {:.4g} mm is taken everywhere; give another one if that is not "
+                        "what it is cut from ({})",
+                        sheet.thin_tenth, sheet.thick_tenth, sheet.thickness, mention(option::thickness)));
+    return remarks;
+}
+
 /// @param uneven_told  bends that are not as thick as the sheet have been told with their radii
 Remarks on_skin(const PartFile& part, bool uneven_told)
 {
@@ -532,7 +547,9 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
         sunk = finding_of(holes, laid.kind, laid.skin.side, sheet.thickness, part.source_face);
     part.thickness_mm = sheet.thickness;
     replace_mesh(part, laid.skin);
-    add(part, on_skin(part, !uneven.doubts.empty()));
+    const Remarks taper = uneven.doubts.empty() ? on_taper(sheet) : Remarks{};
+    add(part, on_skin(part, !uneven.doubts.empty() || !taper.doubts.empty()));
+    add(part, taper);
     for (std::optional<Finding>* each : {&plain.marks, &sunk})
         if (*each)
             part.doctor.findings.push_back(std::move(**each));

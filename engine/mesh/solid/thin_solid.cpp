@@ -206,6 +206,8 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
         spread.emplace_back(at.thickness, at.area);
     result.least = std::min(thickness, quantile(spread, 0.01));
     result.most = std::max(thickness, quantile(spread, 0.99));
+    result.thin_tenth = quantile(spread, 0.1);
+    result.thick_tenth = quantile(spread, 0.9);
     describe_outline(solid, result);
     const double filled = volume * flipped / (thickness * (result.outer + result.inner) / 2);
     if (solid.closed && (filled < 0.8 || filled > 1.25))

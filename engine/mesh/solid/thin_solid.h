@@ -31,22 +31,24 @@ struct ThinSolidOptions {
 
 /// A solid of sheet taken apart: both skins, and the faces across the thickness between them.
 struct ThinSolid {
-    std::vector<SheetSide> side;          ///< #F
-    double thickness = 0;                 ///< mm, the one that most of the sheet has
-    double least = 0, most = 0;           ///< mm, what the thickness is between for 98 % of the
-                                          ///< skins' area; away from its main value by chords of
-                                          ///< the triangles, too
-    double outer = 0, inner = 0, rim = 0; ///< mm2
-    double volume = 0;                    ///< mm3
-    double flipped = 0;                   ///< -1 if the triangles are seen from inside the solid,
-                                          ///< else 1
-    int outlines = 0;                     ///< groups of faces across the thickness: one more than
-                                          ///< there are holes
-    bool bent = false;                    ///< either skin is not plane
-    double rounded = 0;                   ///< share of the skins' outline where they go over into
-                                          ///< the rim smoothly
-    std::vector<SheetMark> marks = {};    ///< shallow places; `side` has their walls on their skin,
-                                          ///< too
+    std::vector<SheetSide> side;            ///< #F
+    double thickness = 0;                   ///< mm, the one that most of the sheet has
+    double least = 0, most = 0;             ///< mm, what the thickness is between for 98 % of the
+                                            ///< skins' area; away from its main value by chords of
+                                            ///< the triangles, too
+    double thin_tenth = 0, thick_tenth = 0; ///< mm: a tenth of the skins' area is thinner than the
+                                            ///< first, a tenth thicker than the second
+    double outer = 0, inner = 0, rim = 0;   ///< mm2
+    double volume = 0;                      ///< mm3
+    double flipped = 0;                     ///< -1 if the triangles are seen from inside the solid,
+                                            ///< else 1
+    int outlines = 0;                       ///< groups of faces across the thickness: one more than
+                                            ///< there are holes
+    bool bent = false;                      ///< either skin is not plane
+    double rounded = 0;                     ///< share of the skins' outline where they go over into
+                                            ///< the rim smoothly
+    std::vector<SheetMark> marks = {};      ///< shallow places; `side` has their walls on their skin,
+                                            ///< too
 
     double area(SheetSide of) const { return of == SheetSide::outer ? outer : of == SheetSide::inner ? inner : rim; }
 };

@@ -168,6 +168,26 @@ TEST_F(SolidPart, RefusesWhatIsNoSheetWithFaceAndPlace)
               "");
 }
 
+// Few triangles or many: of a wedge one of both is taken for the thickness, or it is refused.
+TEST_F(SolidPart, TellsThatTheThicknessOfAWedgeVaries)
+{
+    for (const int fine : {1, 2, 12, 40})
+        for (const double thin : {1.3, 1.6, 2., 2.4}) {
+            SCOPED_TRACE(fmt::format("{} by {}, from {} to 4 mm", fine, fine, thin));
+            const TriMesh plate = shapes::rectangle(80, 50, fine, fine);
+            Eigen::Matrix3Xd down = Eigen::Matrix3Xd::Zero(3, plate.vertices());
+            for (int v = 0; v < plate.vertices(); ++v)
+                down(2, v) = -4 + (4 - thin) * plate.position(0, v) / 80;
+            try {
+                const PartFile part = read_part(write("wedge.stl", shapes::thickened(plate, down)));
+                EXPECT_TRUE(std::ranges::any_of(part.doubts, [](const std::string& doubt) {
+                    return doubt.find("the thickness varies") != std::string::npos;
+                }));
+            } catch (const InputError&) {
+            }
+        }
+}
+
 TEST_P(RealSolid, GivesBothSkinsAndTheMiddle)
 {
     const Known& known = GetParam();
