@@ -60,7 +60,7 @@ std::optional<double> tolerance_for_bends(const PartFile& part)
     const double diagonal = bounding_diagonal(part.mesh);
     double tolerance = usual * diagonal;
     const FreeEnds ends(part.mesh);
-    for (const BendZone& zone : stated_zones(part.mesh, surface))
+    for (const BendZone& zone : stated_zones(part.mesh, surface, part.cad->sewing_tolerance))
         if (ends.of(zone))
             tolerance = std::min(tolerance, of_radius * zone.radius);
     return tolerance < usual * diagonal ? std::optional(std::max(tolerance, least * diagonal)) : std::nullopt;

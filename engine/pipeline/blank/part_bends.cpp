@@ -61,7 +61,7 @@ std::vector<BendZone> zones_of(const PartFile& part)
         std::vector<StatedSurface> surface;
         for (const int f : part.source_face)
             surface.push_back(part.cad->surface[size_t(part.cad->face[size_t(f)])]);
-        return stated_zones(part.mesh, surface);
+        return stated_zones(part.mesh, surface, part.cad->sewing_tolerance);
     }
     std::vector<BendZone> zones = fitted_zones(part.mesh, find_bends(part.mesh), part.solid.has_value());
     return part.solid && !part.solid->surface.empty() ? with_measured(part, std::move(zones)) : zones;

@@ -78,6 +78,18 @@ void end_on_flats(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZo
         zone.to = end[1];
 }
 
+/// mm, from the cylinder.
+double median_off(const TriMesh& part, const BendZone& zone, const std::set<int>& corners)
+{
+    std::vector<double> off;
+    for (const int v : corners) {
+        const Eigen::Vector3d from = part.position.col(v) - zone.point;
+        off.push_back(std::abs((from - from.dot(zone.axis) * zone.axis).norm() - zone.radius));
+    }
+    std::ranges::sort(off);
+    return off.empty() ? 0 : off[off.size() / 2];
+}
+
 /// Angles of all corners without jumps, from face to face; and what follows from them.
 void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& zone)
 {
@@ -134,17 +146,16 @@ void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& z
         }
     zone.face.resize(kept);
     zone.turn.resize(kept);
-    // Where the slanted rim of a hole crosses the border of the bend, corners lie beside the
-    // cylinder, or on it beyond the border. Where it ends is what corners on it say that it has in
-    // common with the sheet beside it; at a free edge any.
-    const double on = 4 * middle_off + 1e-7 * zone.radius +
-                      2 * zone.measured; // a corner that is 4e-4 rad beyond the border is farther
-                                         // off
     std::set<int> common;
     for (const int f : zone.face)
         for (int k = 0; k < 3; ++k)
             if (const int next = neighbour(k, f); next >= 0 && index(next) < 0)
                 common.insert({part.triangle(k, f), part.triangle((k + 1) % 3, f)});
+    // Where the slanted rim of a hole crosses the border of the bend, corners lie beside the
+    // cylinder, or on it beyond the border. Where it ends is what corners on it say that it has in
+    // common with the sheet beside it; at a free edge any.
+    const double on = 4 * middle_off + 1e-7 * zone.radius + 2 * zone.measured + // 4e-4 rad beyond
+                      std::min(zone.sewn, 4 * median_off(part, zone, common));  // the border is farther
     double from = std::numeric_limits<double>::infinity(), to = -from;
     zone.from = from;
     zone.to = to;
@@ -327,7 +338,7 @@ void keep_bends(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const Ei
 
 } // namespace
 
-std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface)
+std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface, double sewn)
 {
     const Eigen::Matrix3Xi neighbour = face_neighbours(part.triangles(), edge_uses(part.triangle));
     const Eigen::Matrix3Xd normal = area_vectors(part);
@@ -350,6 +361,7 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
             fresh.axis = s.direction;
             fresh.stated = s.off > 0 ? 0 : s.radius;
             fresh.measured = s.off;
+            fresh.sewn = sewn;
             zones.push_back(fresh);
         }
         zones[size_t(zone)].face.push_back(f);

@@ -17,6 +17,7 @@ struct BendZone {
     double stated = 0;                 ///< mm, radius of the CAD face; 0: none states it
     double measured = 0;               ///< mm, how far corners may lie off what was measured; 0: it
                                        ///< was not, or is stated
+    double sewn = 0;                   ///< mm, gaps of the file were closed up to that
     bool bulging;                      ///< on the outer side of the faces
     std::vector<int> face;             ///< ascending
     std::vector<Eigen::Vector3d> turn; ///< per face: where its corners lie around the axis,
@@ -28,7 +29,9 @@ struct BendZone {
 
 /// Zones on the cylinders that a CAD file states. Faces of one cylinder that touch are one zone.
 /// @param surface  per face what it lies on, or is a distance from, all along its normal
-std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface);
+/// @param sewn  mm: gaps between faces of the file were closed up to that, so that planes may not
+/// touch the cylinders beside them
+std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface, double sewn = 0);
 
 /// Zones of a mesh that nothing is known of: the chords of cylinders however large
 /// (strip_cylinders()); then of each bend of the map the circle through its vertices, if they lie

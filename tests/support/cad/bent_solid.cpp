@@ -202,7 +202,7 @@ TopoDS_Shape embossed(TopoDS_Shape shape, const BentSolid& solid, const Profile&
     return shape;
 }
 
-gp_Trsf pose(std::uint64_t seed)
+gp_Trsf pose(std::uint64_t seed, double away)
 {
     SeededRandom random(seed);
     const auto any = [&] { return random.between(-1, 1); };
@@ -210,7 +210,7 @@ gp_Trsf pose(std::uint64_t seed)
     const double x = any(), y = any(), z = any();
     turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(x, y, z)), 3 * any());
     const double a = any(), b = any(), c = any();
-    move.SetTranslation(gp_Vec(a, b, c) * 200);
+    move.SetTranslation(gp_Vec(a, b, c) * away);
     return move * turn;
 }
 
@@ -357,7 +357,7 @@ TopoDS_Shape made(const BentSolid& solid)
     for (const BendCut& cut : solid.bend_cut)
         shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cut)).Shape();
     if (solid.pose)
-        shape = BRepBuilderAPI_Transform(shape, pose(solid.pose), true).Shape();
+        shape = BRepBuilderAPI_Transform(shape, pose(solid.pose, solid.away), true).Shape();
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More();)
         return at.Current();
     throw std::runtime_error("no solid was made");

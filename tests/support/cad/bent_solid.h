@@ -116,6 +116,7 @@ struct BentSolid {
     BrokenEdges broken = {}, broken_too = {}; ///< one after the other
     std::vector<Rebate> rebate = {};          ///< after the edges are broken
     std::uint64_t pose = 0;                   ///< turned and moved by this seed; 0: as said
+    double away = 200;                        ///< mm, how far it is moved at most along each axis
 
     /// mm: legs, and arcs at K times the thickness from the inner side
     double developed(double k) const;
