@@ -13,6 +13,9 @@
 #include "engine/core/place_text.h"
 #include "engine/core/small_dense.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/face_neighbours.h"
+#include "engine/mesh/solid/border/askew_wall.h"
 #include "engine/mesh/solid/flip_folds.h"
 #include "engine/mesh/solid/holes/oblique_holes.h"
 #include "engine/mesh/topology.h"
@@ -103,6 +106,7 @@ struct MiddleSurface {
     Eigen::Matrix3Xd normal;              ///< of the solid's faces, outwards, unit length
     Eigen::VectorXd size;                 ///< of them, mm2
     std::vector<std::vector<int>> around; ///< faces of the solid at each of its vertices
+    Eigen::Matrix3Xi neighbour;           ///< of the solid, as face_neighbours() says
     TriMesh inner;                        ///< the inner skin
     ClosestPointSearch nearest_inner;
     std::vector<ObliqueHole> oblique;              ///< whose rims go along their walls
@@ -159,16 +163,20 @@ struct MiddleSurface {
         else
             planes.add(told ? told->outwards : mean, told ? -told->distance / 2 : -half);
         constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it
-                                        // gives no direction
-        bool at_rim = false, rounded = false;
+                                        // gives no direction, unless it ends at the other one
+        bool at_rim = false, rounded = false, steep = false;
         for (const int f : others) {
             if (!to_rim || sheet.side[size_t(f)] != SheetSide::rim)
                 continue;
-            if (std::abs(normal.col(f).dot(mean)) < slanted) {
+            const bool crosses =
+                std::abs(normal.col(f).dot(mean)) >= slanted &&
+                askew_wall(solid, neighbour, f, {solid.position.col(v) - half * mean, mean, half}).crosses;
+            if (crosses || std::abs(normal.col(f).dot(mean)) < slanted) {
                 planes.add(normal_of(f), 0);
                 at_rim = true;
             } else
                 rounded = true;
+            steep |= crosses;
         }
         const Eigen::Vector3d moved = planes.move(!sharp);
         if (at_rim && !sharp)
@@ -181,7 +189,10 @@ struct MiddleSurface {
             if (const auto place = beyond_chamfer(v, mean, others))
                 return *place;
         // Where the planes leave the surface, or are too alike to say where to, straight in.
-        return (at_rim || sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
+        constexpr double far = 3, far_along_steep = 6; // a wall at 80 degrees leads 5.8 away
+        return (at_rim || sharp) && moved.norm() > (steep ? far_along_steep : far) * half
+                   ? Eigen::Vector3d(-half * mean)
+                   : moved;
     }
 
     /// The one whose rim has a vertex of the outer skin; null: none.
@@ -428,6 +439,7 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
                                vectors.colwise().normalized(),
                                vectors.colwise().norm().transpose(),
                                faces_around(solid),
+                               face_neighbours(solid.triangles(), edge_uses(solid.triangle)),
                                std::move(inner),
                                std::move(nearest_inner),
                                oblique_holes(solid, sheet, options.surface),

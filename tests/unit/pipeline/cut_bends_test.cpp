@@ -120,6 +120,41 @@ private:
     ScratchFolder folder_;
 };
 
+/// Milled straight through the first leg, the bend and the flange beside it, whose wall lies the flatter
+/// in the sheet the more it is bent.
+TEST(Windows, ThatAreCutAlongALegEndWhereTheirWallCrossesTheMiddleOfTheFlange)
+{
+    const ScratchFolder folder;
+    constexpr std::uint64_t family = 24;
+    int quiet = 0;
+    for (std::uint64_t seed = 1; seed <= family; ++seed) {
+        shapes::SeededRandom random(seed + 83000);
+        BentSolid solid;
+        const double t = solid.thickness = random.between(0.8, 3), angle = degree * random.between(20, 79),
+                     radius = t * random.between(0.5, 3), arc = radius + t / 2;
+        solid.width = 40;
+        solid.bend = {{radius, angle}};
+        const double up = t / 2 * std::tan(angle) * random.between(0.8, 2) + t, // along the flange
+            reach = arc * std::sin(angle) + up * std::cos(angle);
+        solid.leg = {reach + 10, up + t * std::tan(angle) + 10};
+        shapes::BendCut cut;
+        cut.share = 0;
+        cut.y = 20;
+        cut.pitch = 0;
+        cut.outline = {.length = 2 * reach, .width = 15, .radius = 0};
+        solid.bend_cut = {cut};
+        SCOPED_TRACE(fmt::format("{}: t {:.3g}, R {:.3g}, {:.3g} degrees, window {:.4g} beyond the leg", seed, t,
+                                 radius, angle / degree, reach));
+        const Session session = solved_bent_solid(folder / "part.step", solid);
+        if (!session.part->doubts.empty())
+            continue;
+        ++quiet;
+        const double hole = 15 * (reach + arc * angle + up), all = solid.developed(0.5) * solid.width;
+        EXPECT_NEAR(area(session.part->mesh), all - hole, 2e-4 * all);
+    }
+    EXPECT_GE(quiet, int(family * 3 / 4));
+}
+
 /// Wide beside the bend: on the flats the walls of the notch lie so askew that they say next to
 /// nothing of where in the sheet its rim is.
 TEST(WideNotch, LeavesTheFlatsBesideABendInTheirPlanes)

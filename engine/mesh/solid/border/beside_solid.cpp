@@ -34,12 +34,17 @@ std::vector<BorderPlace> places_of(const std::vector<int>& loop, const TriMesh& 
 /// @param deflection  mm, of the solid's facets
 double beside(const BorderPlace& at, const SheetSection& section, double tolerance, double deflection, double most)
 {
-    if (at.outward.isZero() || section.ends(at, tolerance))
+    if (at.outward.isZero())
+        return 0;
+    const std::optional<double> askew = section.to_askew_wall(at);
+    if (!askew && section.ends(at, tolerance))
         return 0;
     constexpr double nearby = 8;                                                 // tolerances
     constexpr int digits = 10;                                                   // a thousandth of what is told
     const double arcs = section.facets(at, nearby * tolerance + 2 * deflection), // or of a blunt corner
         within = tolerance + (deflection > 0 ? std::min(arcs, deflection) : arcs);
+    if (askew)
+        return std::abs(*askew) <= within ? 0 : *askew;
     const double end = section.to_the_end(at, tolerance, most, digits);
     return section.ends(at, within) || section.halfway_along_a_wall(at, end, within) ? 0 : end;
 }

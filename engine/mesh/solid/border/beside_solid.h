@@ -15,8 +15,8 @@ struct BesideSolid {
 
 /// Holds a middle surface against the solid that it was made of, by nothing but lines square to it
 /// through half the thickness on both sides: at the border they meet matter on the side of the
-/// surface, and none beyond. Where a wall crosses the sheet askew, the border may also be halfway
-/// along the wall. Cusps, where two borders touch, are not judged. In the order of the boundary
+/// surface, and none beyond. Where a wall crosses the sheet askew, the border is halfway along the
+/// wall. Cusps, where two borders touch, are not judged. In the order of the boundary
 /// loops.
 /// @param thickness  mm
 /// @param tolerance  mm; what is nearer to its place is not told

@@ -96,6 +96,28 @@ bool SheetSection::halfway_along_a_wall(const BorderPlace& at, double end, doubl
     });
 }
 
+std::optional<double> SheetSection::to_askew_wall(const BorderPlace& at) const
+{
+    constexpr double least = 0.17, most = 0.996; // sines of 10 and of 85 degrees, of what a wall leans
+    constexpr double faces = 0.1, on = 0.01;     // cosine; of half the thickness
+    const double reach = half_ * most / std::sqrt(1 - most * most);
+    const SheetPlane sheet{at.place, at.normal, half_};
+    std::optional<double> nearest;
+    for (const int f : near(at.place, reach)) {
+        const Eigen::Vector3d n = (inside_out_ ? -1 : 1) * normal(f).normalized();
+        const double lean = std::abs(n.dot(at.normal)), out = n.dot(at.outward);
+        if (!(lean > least && lean < most && out > faces * std::sqrt(1 - lean * lean)))
+            continue;
+        const Eigen::Matrix3d corner = corners(f);
+        const double off = n.dot(corner.col(0) - at.place) / out;
+        const Eigen::Vector3d there = at.place + off * at.outward;
+        if (std::abs(off) <= reach && (!nearest || std::abs(off) < std::abs(*nearest)) &&
+            (corner * closest_on_triangle(corner, there) - there).norm() <= on * half_ && crosses_askew(f, sheet))
+            nearest = off;
+    }
+    return nearest;
+}
+
 bool SheetSection::crosses_askew(int face, const SheetPlane& sheet) const
 {
     if (askew_wall(solid_, neighbour_, face, sheet).crosses)

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "engine/mesh/pick.h"
@@ -39,6 +40,10 @@ public:
     /// that at a skin. Of a chamfer or a sink the wall beyond it is left.
     /// @param end  mm outwards, where the solid ends
     bool halfway_along_a_wall(const BorderPlace& at, double end, double within) const;
+
+    /// mm outwards, to where a wall that crosses the whole sheet askew crosses its middle; nothing if
+    /// none faces outwards there.
+    std::optional<double> to_askew_wall(const BorderPlace& at) const;
 
     /// Whether a wall square to the sheet, within half the thickness of a place, faces outwards and lies
     /// in a plane so near to it: that of a deep chamfer is above or below.
