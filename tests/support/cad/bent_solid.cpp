@@ -8,6 +8,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepFilletAPI_MakeChamfer.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
@@ -138,7 +139,7 @@ TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const BendCu
     const gp_Vec along(std::cos(h), 0, std::sin(h)), out(-std::sin(h), 0, std::cos(h)), y(0, 1, 0);
     const gp_Vec way = out * std::cos(cut.lean) + y * std::sin(cut.lean);
     const gp_Vec side = y * std::cos(cut.lean) - out * std::sin(cut.lean);
-    const double reach = 1.5 * t + reach_of(cut.outline);
+    const double reach = std::max(cut.reach, 1.5 * t + reach_of(cut.outline));
     const gp_Pnt from = beside(profile, piece, s, 0).Translated(y * cut.y - way * reach);
     const gp_Ax2 frame(from, gp_Dir(way), gp_Dir(along * std::cos(turn) + side * std::sin(turn)));
     return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline_of(cut.outline, frame), true).Face(),
@@ -358,6 +359,8 @@ TopoDS_Shape made(const BentSolid& solid)
         shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cut)).Shape();
     if (solid.pose)
         shape = BRepBuilderAPI_Transform(shape, pose(solid.pose, solid.away), true).Shape();
+    if (solid.splines)
+        shape = BRepBuilderAPI_NurbsConvert(shape, true).Shape();
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More();)
         return at.Current();
     throw std::runtime_error("no solid was made");

@@ -76,6 +76,7 @@ struct BendCut {
     Cutout outline = {}; ///< its length, width, radius and turn; its length across the bend
     double lean = 0;     ///< radians, of the prism against the sheet's normal there, along the bend
     double pitch = 0;    ///< radians, likewise, across the bend
+    double reach = 0;    ///< mm, of the prism both ways, if that is more than through the bend
 };
 
 /// Edges of the border at one side of the sheet or both, all around it, chamfered or rounded.
@@ -115,6 +116,7 @@ struct BentSolid {
     double corner = 0;                        ///< mm, radius of the four corners; 0: sharp
     BrokenEdges broken = {}, broken_too = {}; ///< one after the other
     std::vector<Rebate> rebate = {};          ///< after the edges are broken
+    bool splines = false;                     ///< all faces are (rational) B-splines
     std::uint64_t pose = 0;                   ///< turned and moved by this seed; 0: as said
     double away = 200;                        ///< mm, how far it is moved at most along each axis
 
