@@ -219,11 +219,11 @@ private:
 
 } // namespace
 
-bool is_flat(const Triangle& t, const std::vector<Eigen::Vector3d>& position)
+bool is_flat(const Triangle& t, const std::vector<Eigen::Vector3d>& position, double height)
 {
     const Vector3d &a = position[size_t(t[0])], &b = position[size_t(t[1])], &c = position[size_t(t[2])];
     const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    return !((b - a).cross(c - a).norm() > flat_height * longest * longest);
+    return !((b - a).cross(c - a).norm() > height * longest * longest);
 }
 
 FlatRepair repair_flat_triangles(std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& position)

@@ -11,7 +11,8 @@ namespace spia {
 /// sheet.
 constexpr double flat_height = 1e-6;
 
-bool is_flat(const Triangle& t, const std::vector<Eigen::Vector3d>& position);
+/// @param height  of the longest edge
+bool is_flat(const Triangle& t, const std::vector<Eigen::Vector3d>& position, double height = flat_height);
 
 /// What became of the triangles without area.
 struct FlatRepair {
