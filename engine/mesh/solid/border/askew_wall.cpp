@@ -44,7 +44,7 @@ struct Heights {
 /// be in the bend beside the flat.
 bool beside_sheet(const TriMesh& solid, int face, const SheetPlane& sheet)
 {
-    constexpr double much = 3; // of half the thickness
+    constexpr double much = 12; // of half the thickness: walls at 85 degrees
     return std::ranges::all_of(solid.triangle.col(face), [&](int v) {
         return std::abs(sheet.height(solid.position.col(v))) <= much * sheet.half;
     });

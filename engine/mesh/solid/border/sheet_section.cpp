@@ -29,9 +29,13 @@ bool SheetSection::matter(const BorderPlace& at, double outwards) const
 
 bool SheetSection::ends(const BorderPlace& at, double tolerance) const
 {
-    if (matter(at, tolerance))
-        return false;
     constexpr int places = 8;
+    const auto free = [&](int k) { return !matter(at, tolerance * k / places); };
+    bool beyond = free(places);
+    for (int k = 1; k < places && !beyond; ++k) // a slit narrower than that, and sheet again
+        beyond = free(k);
+    if (!beyond)
+        return false;
     for (int k = places; k >= 0; --k)
         if (matter(at, -tolerance * k / places))
             return true;
@@ -99,20 +103,19 @@ bool SheetSection::halfway_along_a_wall(const BorderPlace& at, double end, doubl
 std::optional<double> SheetSection::to_askew_wall(const BorderPlace& at) const
 {
     constexpr double least = 0.17, most = 0.996; // sines of 10 and of 85 degrees, of what a wall leans
-    constexpr double faces = 0.1, on = 0.01;     // cosine; of half the thickness
+    constexpr double faces = 0.1, on = 1e-3;     // cosine; of half the thickness
     const double reach = half_ * most / std::sqrt(1 - most * most);
     const SheetPlane sheet{at.place, at.normal, half_};
     std::optional<double> nearest;
-    for (const int f : near(at.place, reach)) {
-        const Eigen::Vector3d n = (inside_out_ ? -1 : 1) * normal(f).normalized();
-        const double lean = std::abs(n.dot(at.normal)), out = n.dot(at.outward);
-        if (!(lean > least && lean < most && out > faces * std::sqrt(1 - lean * lean)))
+    for (const double way : {1., -1.}) {
+        const double start = -way * on * half_;
+        const RayHit hit = rays_.first(at.place + start * at.outward, way * reach * at.outward);
+        if (hit.face < 0 || hit.distance > 1)
             continue;
-        const Eigen::Matrix3d corner = corners(f);
-        const double off = n.dot(corner.col(0) - at.place) / out;
-        const Eigen::Vector3d there = at.place + off * at.outward;
-        if (std::abs(off) <= reach && (!nearest || std::abs(off) < std::abs(*nearest)) &&
-            (corner * closest_on_triangle(corner, there) - there).norm() <= on * half_ && crosses_askew(f, sheet))
+        const Eigen::Vector3d n = (inside_out_ ? -1 : 1) * normal(hit.face).normalized();
+        const double lean = std::abs(n.dot(at.normal)), off = start + way * hit.distance * reach;
+        if (lean > least && lean < most && n.dot(at.outward) > faces * std::sqrt(1 - lean * lean) &&
+            (!nearest || std::abs(off) < std::abs(*nearest)) && crosses_askew(hit.face, sheet))
             nearest = off;
     }
     return nearest;

@@ -24,7 +24,7 @@ public:
     bool matter(const BorderPlace& at, double outwards) const;
 
     /// Whether matter begins within the tolerance inwards, if only that of a thin web, and none is
-    /// beyond.
+    /// beyond, if only across a slit.
     bool ends(const BorderPlace& at, double tolerance) const;
 
     /// Where the solid ends from a place outwards, mm, < 0: before it; `most` at most.
