@@ -124,14 +124,15 @@ std::vector<std::string> grid_shortcomings(const Session& session)
 std::vector<std::string> shortcomings(const Session& session)
 {
     std::vector<std::string> list;
-    if (session.part)
+    if (session.part) {
         list = session.part->doubts;
+        for (std::string& line : closed_corners(*session.part))
+            list.push_back(std::move(line));
+    }
     if (session.blank) {
         for (std::string& line : unlikely_input(session.options.flatten))
             list.push_back(std::move(line));
         for (std::string& line : other_thickness(*session.part, session.options.flatten.thickness))
-            list.push_back(std::move(line));
-        for (std::string& line : closed_corners(*session.part))
             list.push_back(std::move(line));
         for (std::string& line : idle_process(session))
             list.push_back(std::move(line));

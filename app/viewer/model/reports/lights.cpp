@@ -315,7 +315,8 @@ DoubtsOf doubts_of(const Document& document, LengthUnit lengths)
             document.material_from,
             document.thickness_from,
             first_stale(document),
-            lengths};
+            lengths,
+            session.options.k_factor.has_value()};
 }
 
 int finer_cells(const GridOptions& grid)
@@ -373,6 +374,10 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
     add_shortcomings(ChainStep::part, upto, document, known, doubts);
     judge_size(document, lengths, doubts);
     judge_sheet(document, lengths, doubts);
+    if (document.session.options.k_factor && made.part->solid && made.part->solid->skin != Skin::middle)
+        doubts.push_back({ChainStep::unfold,
+                          "The K factor needs the middle surface, but the lengths are those of a skin.",
+                          "Choose \"middle\" as \"Skin\" in the step Part, or \"none\" as K factor."});
     if (made.blank && holds(Stage::solve)) {
         upto.blank = made.blank;
         add_shortcomings(ChainStep::unfold, upto, document, known, doubts);

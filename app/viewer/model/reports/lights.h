@@ -50,6 +50,7 @@ struct DoubtsOf {
     SheetSource material_from = SheetSource::assumed, thickness_from = SheetSource::assumed;
     std::optional<Stage> stale;
     LengthUnit lengths = LengthUnit::mm; ///< in which they are told
+    bool k_factor = false;
 
     friend bool operator==(const DoubtsOf&, const DoubtsOf&) = default;
 };

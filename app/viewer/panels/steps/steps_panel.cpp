@@ -84,7 +84,7 @@ void part_step(Frame& frame)
     refused_notice(frame);
     const Eigen::Vector3d size = part_figures(frame).size / millimetres(frame.lengths());
     figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
-    figure(frame, "Size",
+    figure(frame, part.solid ? "Surface size" : "Size",
            fmt::format("{:.4g} x {:.4g} x {:.4g} {}", size[0], size[1], size[2], length_word(frame.lengths())));
     if (!part.seam.empty())
         seam_rows(frame, part);
