@@ -140,7 +140,7 @@ TEST(Windows, ThatAreCutAlongALegEndWhereTheirWallCrossesTheMiddleOfTheFlange)
         shapes::BendCut cut;
         cut.share = 0;
         cut.y = 20;
-        cut.pitch = 0;
+        cut.reach = 10 * solid.width;
         cut.outline = {.length = 2 * reach, .width = 15, .radius = 0};
         solid.bend_cut = {cut};
         SCOPED_TRACE(fmt::format("{}: t {:.3g}, R {:.3g}, {:.3g} degrees, window {:.4g} beyond the leg", seed, t,

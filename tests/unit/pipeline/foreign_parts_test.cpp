@@ -1,10 +1,13 @@
-// Parts as they stand in a vehicle or a plant: far from the origin, in files of few digits.
+// Parts as other programs leave them: far from the origin in files of few digits, of splines alone,
+// with holes and slits that are tiny beside them.
 #include <algorithm>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <tuple>
 
 #include "engine/core/error.h"
+#include "engine/exchange/read_part.h"
 #include "engine/part/curved_faces.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/cad/random_bent_solid.h"
@@ -12,6 +15,25 @@
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
+namespace {
+
+void expect_bends(const Session& session, const shapes::BentSolid& solid)
+{
+    const double area = solid.developed(0.5) * solid.width;
+    EXPECT_NEAR(sheet_area(*session.part), area, 1e-4 * area);
+    const auto& bends = session.bends->bends;
+    EXPECT_EQ(bends.size(), solid.bend.size());
+    for (const shapes::SolidBend& made : solid.bend)
+        EXPECT_TRUE(std::ranges::any_of(bends,
+                                        [&](const SheetBend& bend) {
+                                            return std::abs(bend.angle - std::abs(made.angle)) < 2e-3 &&
+                                                   std::abs(bend.inner_radius - made.inner_radius) <
+                                                       2e-3 * solid.thickness;
+                                        }))
+            << "R " << made.inner_radius << ", " << made.angle << " radians";
+}
+
+} // namespace
 
 /// What it is moved by, mm, and how it is written.
 class FarParts : public testing::TestWithParam<std::tuple<double, shapes::CadForm>> {};
@@ -26,6 +48,7 @@ TEST_P(FarParts, HaveAllOfTheirBends)
         shapes::BentSolid solid = shapes::random_bent_solid(seed + 91000);
         solid.pose = seed;
         solid.away = away;
+        solid.hole = false;
         SCOPED_TRACE(fmt::format("{}: {}, t {:.3g}, {} bends", seed, solid.kind, solid.thickness, solid.bend.size()));
         const auto file = folder / fmt::format("part{}", shapes::extension(form));
         shapes::write_bent_solid(file, solid, form);
@@ -51,6 +74,59 @@ TEST_P(FarParts, HaveAllOfTheirBends)
         }
     }
     EXPECT_GE(read, int(family * 3 / 4));
+}
+
+// As programs write them that know nothing but splines.
+TEST(SplineParts, HaveTheirBends)
+{
+    const ScratchFolder folder;
+    for (const shapes::CadForm form : {shapes::CadForm::step, shapes::CadForm::iges})
+        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+            shapes::BentSolid solid = shapes::random_bent_solid(seed + 92000);
+            solid.splines = true;
+            solid.hole = false;
+            SCOPED_TRACE(fmt::format("{}: {}, t {:.3g}, {}", seed, solid.kind, solid.thickness, extension(form)));
+            const auto file = folder / fmt::format("part{}", shapes::extension(form));
+            shapes::write_bent_solid(file, solid, form);
+            expect_bends(solved_part(file, solid.thickness), solid);
+        }
+}
+
+// Lower than a millionth of their length, and right: what is between a small hole and the far ends.
+TEST(LongProfiles, MayHaveTinyHoles)
+{
+    const ScratchFolder folder;
+    for (const double length : {1000., 3000., 6000.})
+        for (const double radius : {0.5, 1., 1.5}) {
+            SCOPED_TRACE(fmt::format("{} mm long, hole of radius {}", length, radius));
+            shapes::BentSolid solid;
+            solid.kind = "channel";
+            solid.width = length;
+            solid.leg = {60, 150, 60};
+            solid.bend = {{2, std::numbers::pi / 2}, {2, std::numbers::pi / 2}};
+            solid.cutout = {
+                {.leg = 1, .centre = {75, length / 2}, .length = 2 * radius, .width = 2 * radius, .radius = radius}};
+            shapes::write_bent_solid(folder / "part.step", solid);
+            const Session session = solved_part(folder / "part.step", solid.thickness);
+            EXPECT_NEAR(sheet_area(*session.part), solid.developed(0.5) * length, 1e-5 * solid.developed(0.5) * length);
+            EXPECT_EQ(session.bends->bends.size(), 2u);
+        }
+}
+
+// Their other side is sheet again, no farther than a border may be off without being told.
+TEST(Slits, AreNoBordersOffTheirPlaces)
+{
+    const ScratchFolder folder;
+    for (const double width : {0.005, 0.01, 0.02, 0.05, 0.1}) {
+        SCOPED_TRACE(fmt::format("{} mm wide", width));
+        shapes::BentSolid solid;
+        solid.leg = {60, 40};
+        solid.bend = {{2, std::numbers::pi / 3}};
+        solid.cutout = {{.leg = 0, .centre = {30, 15}, .length = 20, .width = width, .radius = 0}};
+        shapes::write_bent_solid(folder / "part.step", solid);
+        const PartFile part = read_part(folder / "part.step");
+        EXPECT_TRUE(part.doubts.empty()) << part.doubts.front();
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Distances, FarParts,
