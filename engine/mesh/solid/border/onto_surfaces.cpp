@@ -2,11 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "engine/core/small_dense.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/solid/flip_folds.h"
 #include "engine/mesh/solid/stated_surface.h"
@@ -26,6 +28,8 @@ struct Around {
                                                    ///< its axis
     Eigen::Vector3d out = Eigen::Vector3d::Zero(); ///< unit, the normal of the cylinder's faces at
                                                    ///< the vertex
+    /// each once, with its normal at the vertex, outwards
+    std::vector<std::pair<const StatedSurface*, Eigen::Vector3d>> surface = {};
 };
 
 class Placing {
@@ -52,6 +56,8 @@ public:
                 onto_cylinder(v);
             else if (here.smooth)
                 at_end[v] = onto_end(v);
+            else
+                onto_mitre(v);
         }
         // Of a rim that is very slanted vertices of the bend's side go beyond its end; those of the
         // end have to go before them.
@@ -106,7 +112,13 @@ private:
                 const StatedSurface& s = surface(f);
                 here.alone &= s.kind == Kind::cylinder && same_cylinder(s, *here.cylinder);
                 const Eigen::Vector3d own = normal.col(f).normalized();
-                here.smooth &= normal_at(s, start(size_t(v)), own).dot(here.out) > one_normal;
+                const Eigen::Vector3d out = normal_at(s, start(size_t(v)), own);
+                here.smooth &= out.dot(here.out) > one_normal;
+                if (std::ranges::none_of(here.surface, [&](const auto& known) {
+                        return known.first->kind == s.kind && known.second.dot(out) > one_normal &&
+                               (s.kind != Kind::cylinder || same_cylinder(*known.first, s));
+                    }))
+                    here.surface.emplace_back(&s, out);
             }
     }
 
@@ -194,6 +206,40 @@ private:
         constexpr double most = 1; // farther it is another place of the cylinder
         if (std::abs(nearest - 1) < most)
             place = start(v) + nearest * (place - start(v));
+    }
+
+    /// Where bends of walls that are joined meet, inside of the sheet: half a thickness from both, as near
+    /// as can be to where their tangent planes have it.
+    void onto_mitre(size_t v)
+    {
+        const auto& surface = around_[v].surface;
+        if (surface.size() < 2 || surface.size() > 3 || !wall_.col(middle_.source_vertex[v]).isZero() ||
+            std::ranges::any_of(surface, [](const auto& each) { return each.first->kind == Kind::other; }))
+            return;
+        const double half = sheet_.thickness / 2;
+        const Eigen::Vector3d from = middle_.mesh.position.col(Eigen::Index(v));
+        Eigen::Vector3d place = from;
+        Eigen::MatrixXd slope(Eigen::Index(surface.size()), 3);
+        Eigen::VectorXd off(slope.rows());
+        constexpr int steps = 20;
+        constexpr double exact = 1e-12; // of the thickness
+        for (int step = 0; step < steps; ++step) {
+            for (Eigen::Index i = 0; i < off.size(); ++i) {
+                const auto& [s, out] = surface[size_t(i)];
+                const bool plane = s->kind == Kind::plane;
+                const Eigen::Vector3d arm = across(*s, place - s->point);
+                const double side = plane || across(*s, start(v) - s->point).dot(out) > 0 ? 1 : -1;
+                slope.row(i) = plane ? Eigen::RowVector3d(out.transpose())
+                                     : Eigen::RowVector3d(side * arm.normalized().transpose());
+                off[i] = plane ? out.dot(place - start(v)) + half : side * (arm.norm() - s->radius) + half;
+            }
+            if (off.cwiseAbs().maxCoeff() <= exact * sheet_.thickness) {
+                if ((place - from).norm() <= half)
+                    middle_.mesh.position.col(Eigen::Index(v)) = place;
+                return;
+            }
+            place -= shortest_least_squares(slope, off);
+        }
     }
 
     /// mm, where the faces at a vertex have it, also if it went straight in.
