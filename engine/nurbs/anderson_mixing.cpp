@@ -2,7 +2,6 @@
 
 #include "engine/core/small_dense.h"
 
-
 namespace spia {
 
 Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::VectorXd& image)

@@ -50,7 +50,7 @@ protected:
     ActionQueue actions;
     Ui ui;
     SceneCache cache;
-    Frame now{model, model.state(), actions, ui, cache, {}, {}, {}};
+    Frame now{model, ViewEvents(model), model.pickers(), model.state(), actions, ui, cache, {}, {}, {}};
 };
 
 /// A number field into which somebody types.

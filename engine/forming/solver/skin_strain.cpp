@@ -29,8 +29,7 @@ Eigen::Matrix2d bent(const Eigen::Matrix2d& W, double z, bool& sharp)
     const EigenPairs<2> modes = eigen_pairs(W);
     const Eigen::Vector2d stretch = z * modes.value;
     sharp |= stretch.cwiseAbs().maxCoeff() > most;
-    return modes.vector * (1 + stretch.array().max(-most).min(most)).matrix().asDiagonal() *
-           modes.vector.transpose();
+    return modes.vector * (1 + stretch.array().max(-most).min(most)).matrix().asDiagonal() * modes.vector.transpose();
 }
 
 } // namespace

@@ -14,9 +14,9 @@
 namespace spia {
 namespace {
 
-constexpr double corner = 0.5;   // radians; less is one of many along a crease, as where a collar
-                                 // stands up from a plate, and so cut the sheet would overlap
-constexpr double ring = 0.1;     // radians; a washer of 10 degrees of slope can as well be drawn
+constexpr double corner = 0.5; // radians; less is one of many along a crease, as where a collar
+                               // stands up from a plate, and so cut the sheet would overlap
+constexpr double ring = 0.1; // radians, of a row of vertices, too; a washer of 10 degrees of slope can as well be drawn
 constexpr double unrolls = 0.02; // radians, all together: bent parts measured have 0 to rounding,
                                  // drawn ones 0.9 and more
 
@@ -92,7 +92,11 @@ Rows mitres(const EdgeGraph& graph, const Eigen::VectorXd& defect)
         }
         if (row.size() > 2 && graph.find(row.front(), row.back()) >= 0)
             return {};
-        rows.push_back(std::move(row));
+        double lacks = 0;
+        for (const int w : row)
+            lacks += defect[w];
+        if (std::abs(lacks) > ring)
+            rows.push_back(std::move(row));
     }
     return rows;
 }

@@ -73,8 +73,7 @@ Region region_of(const TriMesh& part, const std::vector<int>& faces)
     // x along the longer side of the region
     Eigen::Matrix3Xd flat = at.colwise() - region.plane.origin;
     flat -= normal * (normal.transpose() * flat);
-    const Eigen::Vector3d longest =
-        eigen_pairs(flat * region.weight.asDiagonal() * flat.transpose()).vector.col(2);
+    const Eigen::Vector3d longest = eigen_pairs(flat * region.weight.asDiagonal() * flat.transpose()).vector.col(2);
     const Eigen::Vector3d x = (longest - normal * normal.dot(longest)).normalized();
     region.plane.axes << x, normal.cross(x);
     return region;
