@@ -62,7 +62,7 @@ expect 0 "can be unfolded" "$spia" info --min-angle 30 --max-edge-ratio 2 --part
 ! grep -q "triangles have" "$out/log" || fail "targets that are met"
 expect 2 "between 0 and 60" "$spia" info --min-angle 60 --part Lid "$deck"
 expect 2 "the word after '--part' is empty" "$spia" info "$deck" --part ""
-expect 2 "nothing stands behind '--part='" "$spia" info "$deck" --part=
+expect 2 "'--part=' needs a value" "$spia" info "$deck" --part=
 sed 's/^\*NODE$/*INCLUDE, INPUT=lost.inp\n&/' "$deck" > "$out/lost.inp.deck.inp"
 expect 1 "WARNING .*lost.inp is not there" "$spia" run "$out/lost.inp.deck.inp" --part Lid --out "$out/l" --formats csv --strict
 expect 0 "WARNING .*lost.inp is not there" "$spia" run "$out/lost.inp.deck.inp" --part Lid --out "$out/l" --formats csv

@@ -148,7 +148,7 @@ TEST_F(TypedNumber, IsRefusedWithWhatWasTypedWhereItIsNone)
             EXPECT_FALSE(draw());
             EXPECT_EQ(value, 1);
             EXPECT_TRUE(ui.number_refused);
-            EXPECT_EQ(model.state().messages.back().text, "\"" + text + "\" is no number. number stays 1.");
+            EXPECT_EQ(model.state().messages.back().text, "\"" + text + "\" is not a number. number stays 1.");
         }
 }
 

@@ -35,8 +35,8 @@ TEST(TypedNumber, MayHaveItsUnitBehindIt)
 
 TEST(TypedNumber, IsRefusedWithWhatWasTyped)
 {
-    EXPECT_EQ(refused_number(" 0,8,1", "Thickness, mm", "1"), "\"0,8,1\" is no number. Thickness stays 1.");
-    EXPECT_EQ(refused_number("x", "", "0.5"), "\"x\" is no number. The value stays 0.5.");
+    EXPECT_EQ(refused_number(" 0,8,1", "Thickness, mm", "1"), "\"0,8,1\" is not a number. Thickness stays 1.");
+    EXPECT_EQ(refused_number("x", "", "0.5"), "\"x\" is not a number. The value stays 0.5.");
     EXPECT_EQ(field_name("Thickness, mm").unit, "mm");
     EXPECT_EQ(field_name("K").unit, "");
 }
