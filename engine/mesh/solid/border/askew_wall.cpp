@@ -104,8 +104,11 @@ AskewWall askew_wall(const TriMesh& solid, const Eigen::Matrix3Xi& neighbour, in
             return a.dot(b) > smooth && std::abs(b.dot(sheet.normal) - lean) < alike;
         })};
     Heights own;
-    for (const int f : wall.face)
+    for (const int f : wall.face) {
+        constexpr double same = 0.9999; // cosine of 0.8 degrees
         own.take(solid, f, sheet);
+        wall.plane &= normal_of(solid, f).dot(normal_of(solid, face)) > same;
+    }
     Heights with_chamfers = own;
     for (const int f : wall.face)
         for (int k = 0; k < 3; ++k)

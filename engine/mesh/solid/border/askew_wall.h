@@ -25,6 +25,7 @@ constexpr double square_lean = 0.02; // 1 degree
 struct AskewWall {
     std::vector<int> face; ///< of the solid, that triangle first; alone where it does not lean
     bool crosses = false;
+    bool plane = true; ///< else a cone, say, as what is sunk is
 };
 
 /// @param neighbour  face_neighbours() of the solid
