@@ -168,12 +168,9 @@ struct MiddleSurface {
         for (const int f : others) {
             if (!to_rim || sheet.side[size_t(f)] != SheetSide::rim)
                 continue;
-            const auto crosses_plane = [&] {
-                const AskewWall wall =
-                    askew_wall(solid, neighbour, f, {solid.position.col(v) - half * mean, mean, half});
-                return wall.crosses && wall.plane;
-            };
-            const bool crosses = std::abs(normal.col(f).dot(mean)) >= slanted && crosses_plane();
+            const bool crosses =
+                std::abs(normal.col(f).dot(mean)) >= slanted &&
+                askew_wall(solid, neighbour, f, {solid.position.col(v) - half * mean, mean, half}).crosses_plane();
             if (crosses || std::abs(normal.col(f).dot(mean)) < slanted) {
                 planes.add(normal_of(f), 0);
                 at_rim = true;

@@ -60,18 +60,7 @@ TEST_P(FarParts, HaveAllOfTheirBends)
             ++read;
             if (!session.part->doubts.empty() || !session.part->doctor.healthy())
                 continue;
-            EXPECT_NEAR(sheet_area(*session.part), solid.developed(0.5) * solid.width,
-                        1e-4 * solid.developed(0.5) * solid.width);
-            const auto& bends = session.bends->bends;
-            EXPECT_EQ(bends.size(), solid.bend.size());
-            for (const shapes::SolidBend& made : solid.bend)
-                EXPECT_TRUE(std::ranges::any_of(bends,
-                                                [&](const SheetBend& bend) {
-                                                    return std::abs(bend.angle - std::abs(made.angle)) < 2e-3 &&
-                                                           std::abs(bend.inner_radius - made.inner_radius) <
-                                                               2e-3 * solid.thickness;
-                                                }))
-                    << "R " << made.inner_radius << ", " << made.angle << " radians";
+            expect_bends(session, solid);
         } catch (const InputError& error) { // coarser than the thinnest of them
             EXPECT_GT(std::string(error.what()).size(), 20u);
         }

@@ -40,11 +40,10 @@ struct Heights {
     }
 };
 
-/// Whether none of its corners is farther from the sheet than its other skin: the foot of a wall may
-/// be in the bend beside the flat.
+/// Whether a triangle may be of a wall of the sheet, whose foot may be in the bend beside the flat.
 bool beside_sheet(const TriMesh& solid, int face, const SheetPlane& sheet)
 {
-    constexpr double much = 12; // of half the thickness: walls at 85 degrees
+    constexpr double much = 12; // half thicknesses: as far as a wall at 85 degrees leads
     return std::ranges::all_of(solid.triangle.col(face), [&](int v) {
         return std::abs(sheet.height(solid.position.col(v))) <= much * sheet.half;
     });

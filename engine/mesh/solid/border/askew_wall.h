@@ -26,6 +26,8 @@ struct AskewWall {
     std::vector<int> face; ///< of the solid, that triangle first; alone where it does not lean
     bool crosses = false;
     bool plane = true; ///< else a cone, say, as what is sunk is
+
+    bool crosses_plane() const { return crosses && plane; }
 };
 
 /// @param neighbour  face_neighbours() of the solid

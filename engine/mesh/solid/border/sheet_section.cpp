@@ -107,10 +107,6 @@ std::optional<double> SheetSection::to_askew_wall(const BorderPlace& at) const
     const double reach = half_ * most / std::sqrt(1 - most * most);
     const SheetPlane sheet{at.place, at.normal, half_};
     std::optional<double> nearest;
-    const auto crosses_plane = [&](int face) {
-        const AskewWall wall = askew_wall(solid_, neighbour_, face, sheet);
-        return wall.crosses && wall.plane;
-    };
     for (const double way : {1., -1.}) {
         const double start = -way * on * half_;
         const RayHit hit = rays_.first(at.place + start * at.outward, way * reach * at.outward);
@@ -119,7 +115,8 @@ std::optional<double> SheetSection::to_askew_wall(const BorderPlace& at) const
         const Eigen::Vector3d n = (inside_out_ ? -1 : 1) * normal(hit.face).normalized();
         const double lean = std::abs(n.dot(at.normal)), off = start + way * hit.distance * reach;
         if (lean > least && lean < most && n.dot(at.outward) > faces * std::sqrt(1 - lean * lean) &&
-            (!nearest || std::abs(off) < std::abs(*nearest)) && crosses_plane(hit.face))
+            (!nearest || std::abs(off) < std::abs(*nearest)) &&
+            askew_wall(solid_, neighbour_, hit.face, sheet).crosses_plane())
             nearest = off;
     }
     return nearest;
