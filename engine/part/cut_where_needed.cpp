@@ -80,14 +80,14 @@ Finding finding_of(const CutPart& cut, const TriMesh& uncut, const std::vector<s
         std::move(place)};
 }
 
-/// "up to 90 degrees at 4 corners and around 1 opening"
+/// "at 4 corners and around 1 opening, up to 90 degrees away from flat"
 std::string describe(const CornerSeam& seam)
 {
     const size_t corners = seam.corner.size(), openings = seam.opening.size();
-    return fmt::format("up to {:.3g} degrees{}{}{}", seam.defect * 180 / std::numbers::pi,
-                       corners > 0 ? " at " + counted(corners, "corner", "corners") : "",
-                       corners > 0 && openings > 0 ? " and" : "",
-                       openings > 0 ? " around " + counted(openings, "opening", "openings") : "");
+    return fmt::format(
+        "{}{}{}, up to {:.3g} degrees away from flat", corners > 0 ? "at " + counted(corners, "corner", "corners") : "",
+        corners > 0 && openings > 0 ? " and " : "",
+        openings > 0 ? "around " + counted(openings, "opening", "openings") : "", seam.defect * 180 / std::numbers::pi);
 }
 
 } // namespace
@@ -103,7 +103,7 @@ PartFile cut_where_needed(PartFile part, SeamOptions seam, const PolygonSoup& fi
         seam = {};
         if (corners) {
             seam = {SeamOptions::Mode::given, corners->path};
-            unrolls = fmt::format(" it unrolls without strain now, where it lacked {}", describe(*corners));
+            unrolls = fmt::format(" it unrolls without strain now, cut {}", describe(*corners));
         } else
             part.doubts.push_back(part.notes.emplace_back("there are no corners to cut: it unrolls uncut, or is curved "
                                                           "elsewhere too"));
@@ -155,7 +155,7 @@ std::optional<Finding> closed_corners(const PartFile& part, const SeamOptions& s
         Severity::note,
         where.count,
         where.first,
-        fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", describe(*corners)),
+        fmt::format("the sheet is only bent, but joined {}, which strains it", describe(*corners)),
         fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain, unless it then overlaps "
                     "itself ({})",
                     corners->length, mention(option::seam, "corners")),
