@@ -32,7 +32,7 @@ TEST_F(ClosedCorners, AreSaidWithTheWayOut)
     EXPECT_EQ(corners->severity, Severity::note);
     EXPECT_EQ(corners->count, 4);
     EXPECT_EQ(corners->place.size(), 4u);
-    EXPECT_THAT(corners->text, HasSubstr("up to 90 degrees at 4 corners"));
+    EXPECT_THAT(corners->text, HasSubstr("at 4 corners, up to 90 degrees away from flat"));
     EXPECT_THAT(corners->advice, HasSubstr(mention(option::seam, "corners")));
     EXPECT_TRUE(part.seam.empty()) << "nothing is cut unasked";
 }
