@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/mesh/topology.h"
+#include "engine/part/cover_openings.h"
 #include "engine/part/cut_where_needed.h"
 #include "engine/part/take_skin.h"
 
@@ -26,6 +27,36 @@ std::optional<std::string> unlikely_size(const PartFile& part, bool unit_given)
                        diagonal, name(part.unit));
 }
 
+PartFile examined(PartFile part, const PolygonSoup& soup, const DoctorOptions& options, const Progress& progress)
+{
+    Examination examination = examine(soup, options, progress);
+    part.mesh = std::move(examination.mesh);
+    part.doctor = std::move(examination.report);
+    part.source_vertex = std::move(examination.source_vertex);
+    part.source_face = std::move(examination.source_face);
+    part.same_as = std::move(examination.same_as);
+    return part;
+}
+
+/// The skin of a solid whose surface is torn, as STL files have it: its slits welded.
+/// @param part  examined without that
+std::optional<TakenSkin> skin_without_slits(const PartFile& part, const PolygonSoup& soup, const ReadOptions& options,
+                                            DoctorOptions doctor, const CornerNormals* normals,
+                                            const Progress& progress)
+{
+    constexpr double widest[] = {2.5, 10}; // of the mean width: a slit may be a triangle, or have two
+    const std::optional<double> width = doctor.weld && !doctor.weld_gap && !part.cad ? slit_width(part) : std::nullopt;
+    for (const double times : widest) {
+        if (!width)
+            break;
+        doctor.weld_gap = times * *width;
+        TakenSkin taken = take_skin(examined(part, soup, doctor, progress), options, false, normals, progress);
+        if (taken.part.solid)
+            return taken;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 PartFile prepare_part(PartFile part, const PolygonSoup& soup, const ReadOptions& options, bool weld, bool solid,
@@ -35,13 +66,11 @@ PartFile prepare_part(PartFile part, const PolygonSoup& soup, const ReadOptions&
     part.file_faces = soup.polygons();
     DoctorOptions doctor = options.doctor;
     doctor.weld = options.weld.value_or(weld);
-    Examination examination = examine(soup, doctor, progress.part(0, 0.6));
-    part.mesh = std::move(examination.mesh);
-    part.doctor = std::move(examination.report);
-    part.source_vertex = std::move(examination.source_vertex);
-    part.source_face = std::move(examination.source_face);
-    part.same_as = std::move(examination.same_as);
-    TakenSkin taken = take_skin(std::move(part), options, solid, normals, progress.part(0.6, 0.95));
+    part = examined(std::move(part), soup, doctor, progress.part(0, 0.6));
+    TakenSkin taken = take_skin(part, options, solid, normals, progress.part(0.6, 0.95));
+    if (!taken.part.solid)
+        if (auto torn = skin_without_slits(part, soup, options, doctor, normals, progress.part(0.95, 0.95)))
+            taken = std::move(*torn);
     progress.checkpoint(0.95, "finding where it must be cut open");
     part = taken.refused ? std::move(taken.part) : cut_where_needed(std::move(taken.part), options.seam, soup);
     if (auto corners = closed_corners(part, options.seam))

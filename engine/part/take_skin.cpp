@@ -23,6 +23,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/options/part_options.h"
 #include "engine/options/sheet_options.h"
+#include "engine/part/cover_openings.h"
 #include "engine/part/mark_findings.h"
 #include "engine/part/middle_surface.h"
 
@@ -558,9 +559,31 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
 
 } // namespace
 
+namespace {
+
+/// The skin of a solid whose surface is closed but for a few triangles.
+std::optional<PartFile> with_skin_if_covered(const PartFile& part, const ReadOptions& options,
+                                             const CornerNormals* normals, const Progress& progress)
+{
+    const std::optional<PartFile> closed = with_openings_covered(part);
+    const Claim claim = closed ? claim_of(*closed, options, false) : Claim::none;
+    if (claim == Claim::none)
+        return std::nullopt;
+    try {
+        PartFile skin = with_skin(*closed, claim, options, false, normals, progress);
+        return skin.solid ? std::optional(std::move(skin)) : std::nullopt;
+    } catch (const NotASheet&) { // a surface then, with small holes
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
 TakenSkin take_skin(PartFile part, const ReadOptions& options, bool solid, const CornerNormals* normals,
                     const Progress& progress)
 {
+    if (std::optional<PartFile> skin = with_skin_if_covered(part, options, normals, progress))
+        return {std::move(*skin)};
     const Claim claim = claim_of(part, options, solid);
     if (claim == Claim::none)
         return {std::move(part)};
@@ -577,11 +600,15 @@ TakenSkin take_skin(PartFile part, const ReadOptions& options, bool solid, const
             add(part, on_hollow(part.mesh, reason.what()));
             return {std::move(part)};
         }
-        if (open)
-            part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a sheet-metal "
-                                             "solid; but {}. It is taken as a surface",
-                                             reason.what()));
-        else
+        if (open) {
+            Remarks remarks;
+            remarks.doubt(fmt::format("most of it lies opposite to another part of itself, as in a sheet-metal solid "
+                                      "with {}; but {}. It is taken as a surface; if it is a solid, export it again "
+                                      "without gaps, or close them ({})",
+                                      counted(size_t(*part.doctor.boundary_loops), "opening", "openings"),
+                                      reason.what(), mention(option::weld, "MM")));
+            add(part, remarks);
+        } else
             refuse(part, reason, solid);
         return {std::move(part), !open};
     }

@@ -29,6 +29,7 @@ enum class Fault {
     touching_fans,      ///< faces that meet in one vertex only: a non-manifold vertex [vertex]
     several_components, ///< [face, the first one outside the largest piece]
     closed_surface,     ///< no boundary [face]
+    opening,            ///< of a surface that is closed elsewhere, covered [vertex]
     handle,             ///< genus above 0 [face]
     seam,               ///< cut open, after the examination [vertex, of the seam]
     closed_corner,      ///< cut there, the part would unroll without strain [vertex]

@@ -28,6 +28,7 @@ std::string_view name(Fault fault)
     case Fault::touching_fans: return "non-manifold vertex";
     case Fault::several_components: return "several components";
     case Fault::closed_surface: return "closed surface";
+    case Fault::opening: return "opening";
     case Fault::handle: return "handle";
     case Fault::seam: return "seam";
     case Fault::closed_corner: return "closed corner";
@@ -64,7 +65,7 @@ bool counts_vertices(Fault fault)
 {
     return fault == Fault::bad_coordinate || fault == Fault::coincident_vertex || fault == Fault::crack ||
            fault == Fault::stray_vertex || fault == Fault::touching_fans || fault == Fault::seam ||
-           fault == Fault::closed_corner || fault == Fault::gap;
+           fault == Fault::closed_corner || fault == Fault::gap || fault == Fault::opening;
 }
 
 std::optional<std::string> refusal(const DoctorReport& report)
