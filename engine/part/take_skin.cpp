@@ -409,8 +409,8 @@ Remarks on_taper(const ThinSolid& sheet)
     Remarks remarks;
     if (sheet.thin_tenth < (1 - uneven) * sheet.thickness || sheet.thick_tenth > (1 + uneven) * sheet.thickness)
         remarks.doubt(
-            fmt::format("the thickness varies: a tenth of the sheet is thinner than {:.4g} mm, a tenth is "
-                        "thicker than {:.4g} mm, and {:.4g} mm is taken everywhere; give another one if that is not "
+            fmt::format("the thickness varies: a tenth of the sheet is {:.4g} mm thick or less, a tenth "
+                        "{:.4g} mm or more, and {:.4g} mm is taken everywhere; give another one if that is not "
                         "what it is cut from ({})",
                         sheet.thin_tenth, sheet.thick_tenth, sheet.thickness, mention(option::thickness)));
     return remarks;

@@ -98,8 +98,9 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                                        counted(joined.count, "vertex was", "vertices were"),
                                        found.near == 0 ? " at the same place" : "", joined.first);
         if (found.near > 0)
-            text += fmt::format(", {} of them across gaps of up to {:.3g} mm and the others at the same place",
-                                found.near, found.widest);
+            text += fmt::format(", {} across gaps of up to {:.3g} mm{}",
+                                found.near < joined.count ? fmt::format("{} of them", found.near) : "all", found.widest,
+                                found.near < joined.count ? " and the others at the same place" : "");
         report.add(Fault::coincident_vertex, Severity::repaired, joined, text, "");
     }
     if (options.weld)

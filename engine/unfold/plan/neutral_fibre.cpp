@@ -289,9 +289,8 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", layers.thickness));
     if (layers.k && layers.mesh_at != 0)
         throw InputError(fmt::format(
-            "a K factor says where the neutral fibre lies, but a skin of the solid is laid flat in place of its middle "
-            "surface: leave one of them out ({} or {}); where no skin was asked for the notes say why there is no middle "
-            "surface",
+            "a K factor needs the middle surface, but a skin of the solid is laid flat: leave out the K factor ({}), or "
+            "take the middle surface ({}); if no skin was chosen, the notes say why there is none",
             mention(option::k_factor), mention(option::skin)));
     constexpr double flat = 0.05 * degree; // what turns less is a plane that CAD tilted
     const FreeEnds ends(part);

@@ -106,6 +106,30 @@ TEST_F(KChoice, FiguresFollowAtOnceAndTheBlankHasThem)
     }
 }
 
+TEST_F(KChoice, BesideASkinItIsADoubtOfTheStepPartBeforeARun)
+{
+    shapes::BentSolid solid;
+    solid.kind = "bracket";
+    solid.leg = {40, 25};
+    solid.bend = {{3, pi / 2}};
+    shapes::write_bent_solid(folder / "part.step", solid);
+    model.apply(OpenPart{folder / "part.step", ""});
+    wait();
+    model.apply(SetKFactor{"0.44"});
+    const auto doubted = [&] {
+        return std::ranges::count_if(*state.doubts, [](const Doubt& doubt) {
+            return doubt.step == ChainStep::part && doubt.text.find("needs the middle surface") != std::string::npos;
+        });
+    };
+    EXPECT_EQ(doubted(), 0);
+    model.apply(SetReading{{.skin = Skin::outer}});
+    wait();
+    EXPECT_EQ(doubted(), 1);
+    model.apply(SetReading{{.skin = Skin::middle}});
+    wait();
+    EXPECT_EQ(doubted(), 0);
+}
+
 TEST_F(KChoice, ABendThatIsNotLaidIsADoubtAndKeepsTheFiguresOfTheBlank)
 {
     shapes::BentSolid solid;

@@ -173,7 +173,7 @@ std::string advice(Stage failed, const SessionOptions& options)
         return "Use the blank of the steps as it is, without polishing.";
     switch (failed) {
     case Stage::read: return "See the faults in the step Part, where some can be repaired, or choose another file.";
-    case Stage::solve: return "Where faces are named, look at them; a coarser or cleaner mesh often helps.";
+    case Stage::solve: return "Look at the places that are named; otherwise a coarser or cleaner mesh often helps.";
     case Stage::grid: return "Drag the corners to sharp corners of the blank, or choose the harmonic method.";
     case Stage::lift: return "Choose the automatic grid method.";
     case Stage::fit:

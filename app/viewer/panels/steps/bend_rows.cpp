@@ -156,7 +156,7 @@ void k_factor_control(Frame& frame)
     ImGui::SetNextItemWidth(170 * frame.ui.scale);
     const std::string shown = now == KSource::number ? "number" : of_skin && !k ? "none, skin lengths" : k_words(k);
     if (ImGui::BeginCombo("K factor", shown.c_str())) {
-        if (ImGui::Selectable("0.5, middle surface", now == KSource::automatic))
+        if (ImGui::Selectable(of_skin ? "none, skin lengths" : "0.5, middle surface", now == KSource::automatic))
             frame.actions.push(SetKFactor{});
         if (ImGui::Selectable("number", now == KSource::number) && now != KSource::number)
             frame.actions.push(SetKFactor{"0.5"});
