@@ -149,25 +149,29 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
     const int count = int(plane_.cols());
     std::vector<double> back(static_cast<size_t>(count));
     result.at_vertex.resize(vertex_normal_.cols());
-    std::vector<SurfaceFoot> own(static_cast<size_t>(count));
+    std::vector<SurfaceFoot> foot(static_cast<size_t>(count));
+    std::vector<int> nearest = patch_; // a place on a line between patches may be another one's
     for_each_in_parts(count, progress.part(0.5, 1), "measuring from the part to the patches", [&](int i) {
         const Eigen::Vector3d point = samples_.position.col(i);
-        own[size_t(i)] = projection[size_t(patch_[size_t(i)])].nearest(point);
-        double least = own[size_t(i)].distance;
-        for (size_t p = 0; p < patches.size() && least > tolerance_; ++p)
+        const SurfaceFoot own = projection[size_t(patch_[size_t(i)])].nearest(point);
+        foot[size_t(i)] = own;
+        for (size_t p = 0; p < patches.size() && foot[size_t(i)].distance > tolerance_; ++p)
             if (int(p) != patch_[size_t(i)] && in_box(box_[p], plane_.col(i)))
-                least = std::min(least, projection[p].nearest(point).distance);
-        back[size_t(i)] = least;
+                if (const SurfaceFoot other = projection[p].nearest(point); other.distance < foot[size_t(i)].distance) {
+                    foot[size_t(i)] = other;
+                    nearest[size_t(i)] = int(p);
+                }
+        back[size_t(i)] = foot[size_t(i)].distance;
         if (i < int(vertex_normal_.cols())) {
-            const bool outside = (own[size_t(i)].position - point).dot(vertex_normal_.col(i)) >= 0;
-            result.at_vertex[i] = outside ? least : -least;
+            const bool outside = (own.position - point).dot(vertex_normal_.col(i)) >= 0;
+            result.at_vertex[i] = outside ? back[size_t(i)] : -back[size_t(i)];
         }
     });
     for (int i = 0; i < count; ++i) {
-        const size_t p = size_t(patch_[size_t(i)]);
+        const size_t p = size_t(nearest[size_t(i)]);
         result.patch_max[p] = std::max(result.patch_max[p], back[size_t(i)]);
         if (back[size_t(i)] > tolerance_)
-            result.missing[p].push_back({own[size_t(i)].u, own[size_t(i)].v, back[size_t(i)]});
+            result.missing[p].push_back({foot[size_t(i)].u, foot[size_t(i)].v, back[size_t(i)]});
     }
     result.mesh_to_surface = statistics(back, samples_.weight, samples_.position, tolerance_);
     return result;
