@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
+#include "engine/layout/simplify/arc.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -139,6 +140,11 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
     if (whole) {
         const auto corner = propose_corners(blank, part);
         forced.assign(corner.begin(), corner.end());
+    }
+    if (options.corner_radius > 0 && !whole) {
+        const std::vector<int> corners =
+            border_corners(part, blank, {options.corner_deg * std::numbers::pi / 180, options.corner_radius});
+        forced.insert(forced.end(), corners.begin(), corners.end());
     }
     PlaneGraph graph =
         border_graph(part, blank, options, forced, whole || !options.corners.empty(), options.layers || !edges.empty());

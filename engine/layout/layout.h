@@ -65,6 +65,9 @@ struct LayoutOptions {
     bool split = false;                ///< divide every face, even where triangles pair
     bool layers = false;               ///< rows of patches along all arcs that bulge into the
                                        ///< sheet: see add_layers()
+    double corner_radius = 0;          ///< mm: corners of the border that are rounded by less are
+                                       ///< vertices, also those beside greater ones; 0: only those
+                                       ///< that are seen over 1/50 of a loop
     double edge_deg = 45;              ///< turn of the sheet over a line on which patches end; 180:
                                        ///< none do. blank_patches() takes flatter ones as well
                                        ///< where the tolerance is missed
