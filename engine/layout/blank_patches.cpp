@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -10,7 +11,9 @@
 #include "engine/core/error.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/layout/patches_judge.h"
+#include "engine/layout/simplify/simplify_layout.h"
 #include "engine/layout/smooth_fit.h"
+#include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"
 
 namespace spia {
@@ -21,11 +24,14 @@ namespace {
 struct Division {
     std::string name;
     LayoutOptions layout;
+    bool simplified = false;    ///< with as few patches as simplify_layout() leaves
+    bool without_edges = false; ///< the same as the one before but without the edges of the part
 };
 
-/// As few patches as there can be, then more of them with better corners; each along the edges of
-/// the part, where it has some, and without; along flatter edges where these are not enough; at
-/// last with every face divided.
+/// Simplified layouts, then as few patches as lines alone make, then more of them with better
+/// corners; each along the edges of the part, where it has some, and without; along flatter edges
+/// where these are not enough; at last with every face divided. A part without holes is tried with
+/// lines alone first. Corners that the user gave make the layout theirs: it is not simplified.
 std::vector<Division> divisions(const TriMesh& part, const LayoutOptions& layout)
 {
     constexpr double flat_deg = 20; // flatter ones are bends that a smooth surface follows
@@ -47,8 +53,23 @@ std::vector<Division> divisions(const TriMesh& part, const LayoutOptions& layout
         if (edges > 0)
             add(name + " along the edges", layout, layers, false, 1, closer);
         add(name, plain, layers, false, 1, closer);
+        result.back().without_edges = edges > 0;
     };
+    const auto add_simplified = [&] {
+        const size_t first = result.size();
+        add_both("simplified", true, 1);
+        if (flat_edges > edges)
+            add("simplified along flatter edges", flat, true, false, 1, 1);
+        for (size_t k = first; k < result.size(); ++k)
+            result[k].simplified = true;
+    };
+    // Without holes lines alone may make one patch, or one on each side of an edge.
+    const bool holes = boundary_loops(part).size() > 1;
+    if (layout.corners.empty() && holes)
+        add_simplified();
     add_both("few patches", false, 1);
+    if (layout.corners.empty() && !holes)
+        add_simplified();
     add_both("layers", true, 1);
     if (flat_edges > edges) {
         add("few patches along flatter edges", flat, false, false, 1, 1);
@@ -112,37 +133,46 @@ public:
     /// Patches along edges are compared with those without, whose fit may cost no more. Where
     /// patches have no fold but stay beyond the tolerance, what lacks is control points, or an edge
     /// is in the way whatever the patches: dividing every face does not help.
-    bool worth_trying(size_t k, const Division& division) const
+    bool worth_trying(const Division& division) const
     {
-        return compares(k) || !(worth_.all() || (worth_.suited && division.layout.split));
+        return compares(division) || !(worth_.all() || (worth_.suited && division.layout.split));
     }
 
     /// @returns whether it is the best so far
-    bool try_division(size_t k, const Division& division, AttemptReport& own, const Progress& progress)
+    bool try_division(const Division& division, AttemptReport& own, const Progress& progress)
     {
         try {
-            Layout divided = make_layout(part_, blank_, division.layout, progress.part(0, 0.1));
-            if (k > 0 && same(divided, last_)) {
+            Layout divided = division.simplified ? simplified(division.layout, progress.part(0, 0.4))
+                                                 : make_layout(part_, blank_, division.layout, progress.part(0, 0.1));
+            if (same(divided, last_)) {
                 own.reason = "the same patches as before";
                 return false;
             }
             last_ = divided;
             PatchesFitOptions fitting = options_;
-            if (compares(k))
+            if (compares(division))
                 fitting.max_control_points = std::min(options_.max_control_points, worth_.control_points);
-            PatchesFit fit = fit_patches(part_, blank_, divided, fitting, progress.part(0.1, 1));
+            // More: the patches are too large for the tolerance, and knots in their strips dear.
+            constexpr int most_of_a_patch = 500;
+            if (division.simplified)
+                fitting.max_control_points =
+                    std::min(fitting.max_control_points, most_of_a_patch * int(divided.patch.size()));
+            PatchesFit fit = fit_patches(part_, blank_, divided, fitting, progress.part(0.4, 1));
             const Worth now = worth_of(fit, progress.part(1, 1));
             own.within = std::move(fit.attempts);
             own.reason = describe(now);
             if (best_ && !now.better_than(worth_))
                 return false;
             best_ = std::move(fit);
+            best_is_simplified_ = division.simplified;
             worth_ = now;
             return true;
         } catch (const InputError& error) {
             own.reason = error.what();
-            if (!first_ || k == 1) // that of a way without edges, where the first one has some
-                first_ = error;
+            if (!first_ || first_is_of_simplified_ || division.without_edges) {
+                first_ = error; // what is in the way of the plainest division says most
+                first_is_of_simplified_ = division.simplified;
+            }
             return false;
         }
     }
@@ -155,13 +185,37 @@ public:
     }
 
 private:
-    bool compares(size_t k) const { return worth_.all() && best_->layout.edges > 0 && k == 1; }
+    bool compares(const Division& division) const
+    {
+        return worth_.all() && best_->layout.edges > 0 && division.without_edges &&
+               division.simplified == best_is_simplified_;
+    }
+
+    /// From layers, which have no flat corners; where there is no room for them from few patches.
+    Layout simplified(LayoutOptions layout, const Progress& progress) const
+    {
+        SimplifyOptions options;
+        // An arc of this radius in the place of a corner is off by the tolerance.
+        layout.corner_radius = options.corner_radius = options_.tolerance / (std::numbers::sqrt2 - 1);
+        options.corner_deg = layout.corner_deg;
+        std::optional<Layout> start;
+        try {
+            start = make_layout(part_, blank_, layout, progress.part(0, 0.2));
+        } catch (const InputError&) {
+            layout.layers = false;
+            options.refine = true;
+            start = make_layout(part_, blank_, layout, progress.part(0, 0.2));
+        }
+        return simplify_layout(*start, options, progress.part(0.2, 1));
+    }
 
     const TriMesh& part_;
     const Blank& blank_;
     const PatchesFitOptions& options_;
     std::optional<PatchesFit> best_;
+    bool best_is_simplified_ = false;
     std::optional<InputError> first_;
+    bool first_is_of_simplified_ = false;
     Worth worth_; ///< of the best
     Layout last_;
 };
@@ -175,9 +229,9 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
     DivisionSearch search(part, blank, options);
     std::vector<PlannedAttempt> attempts;
     for (size_t k = 0; k < division.size(); ++k)
-        attempts.push_back({division[k].name, [&, k] { return search.worth_trying(k, division[k]); },
+        attempts.push_back({division[k].name, [&, k] { return search.worth_trying(division[k]); },
                             [&, k](AttemptReport& own) {
-                                return search.try_division(k, division[k], own,
+                                return search.try_division(division[k], own,
                                                            progress.part(double(k) / count, double(k + 1) / count));
                             },
                             [] { return false; }}); // the others are not worth_trying() then

@@ -58,9 +58,10 @@ struct PatchesFit {
 PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& layout,
                        const PatchesFitOptions& options = {}, const Progress& progress = {});
 
-/// Layout and fit: where a patch has no grid without folds, is not proved to be free of them or
-/// stays beyond the tolerance, the blank is divided in other ways, and the best fit is taken: as
-/// few patches as there can be, layers along the border, vertices closer together, each along the
+/// Layout and fit: simplified layouts first (see simplify_layout(); not where the user gave
+/// corners). Where a patch has no grid without folds, is not proved to be free of them or stays
+/// beyond the tolerance, the blank is divided in other ways, and the best fit is taken: as few
+/// patches as lines alone make, layers along the border, vertices closer together, each along the
 /// edges of the part and without them, and along flatter ones; then every face divided. Of two that
 /// have it all the one with fewer control points.
 /// @throws InputError as make_layout() and fit_patches()
