@@ -375,9 +375,9 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
     judge_size(document, lengths, doubts);
     judge_sheet(document, lengths, doubts);
     if (document.session.options.k_factor && made.part->solid && made.part->solid->skin != Skin::middle)
-        doubts.push_back({ChainStep::part,
-                          "The K factor needs the middle surface, but the lengths are those of a skin.",
-                          "Choose \"middle\" as \"Skin\", or \"none, skin lengths\" as \"K factor\" in the step Unfold."});
+        doubts.push_back(
+            {ChainStep::part, "The K factor needs the middle surface, but the lengths are those of a skin.",
+             "Choose \"middle\" as \"Skin\", or \"none, skin lengths\" as \"K factor\" in the step Unfold."});
     if (made.blank && holds(Stage::solve)) {
         upto.blank = made.blank;
         add_shortcomings(ChainStep::unfold, upto, document, known, doubts);
