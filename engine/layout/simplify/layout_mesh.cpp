@@ -136,35 +136,23 @@ void LayoutMesh::undo()
 
 void LayoutMesh::keep() { trying_ = false; }
 
-MeshVertex& LayoutMesh::edit_vertex(int v)
+template <class Item>
+Item& LayoutMesh::edited(int i, std::vector<Item>& items, std::vector<long>& trial, std::vector<int>& edited,
+                         std::vector<Item>& old)
 {
-    if (trying_ && vertex_trial_[size_t(v)] != trial_) {
-        vertex_trial_[size_t(v)] = trial_;
-        edited_vertices_.push_back(v);
-        old_vertex_.push_back(vertex_[size_t(v)]);
+    if (trying_ && trial[size_t(i)] != trial_) {
+        trial[size_t(i)] = trial_;
+        edited.push_back(i);
+        old.push_back(items[size_t(i)]);
     }
-    return vertex_[size_t(v)];
+    return items[size_t(i)];
 }
 
-MeshFace& LayoutMesh::edit_face(int f)
-{
-    if (trying_ && face_trial_[size_t(f)] != trial_) {
-        face_trial_[size_t(f)] = trial_;
-        edited_faces_.push_back(f);
-        old_face_.push_back(face_[size_t(f)]);
-    }
-    return face_[size_t(f)];
-}
+MeshVertex& LayoutMesh::edit_vertex(int v) { return edited(v, vertex_, vertex_trial_, edited_vertices_, old_vertex_); }
 
-ArcState& LayoutMesh::edit_arc(int a)
-{
-    if (trying_ && arc_trial_[size_t(a)] != trial_) {
-        arc_trial_[size_t(a)] = trial_;
-        edited_arcs_.push_back(a);
-        old_arc_.push_back(state_[size_t(a)]);
-    }
-    return state_[size_t(a)];
-}
+MeshFace& LayoutMesh::edit_face(int f) { return edited(f, face_, face_trial_, edited_faces_, old_face_); }
+
+ArcState& LayoutMesh::edit_arc(int a) { return edited(a, state_, arc_trial_, edited_arcs_, old_arc_); }
 
 int LayoutMesh::add_vertex(const MeshVertex& vertex)
 {

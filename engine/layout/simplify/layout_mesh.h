@@ -122,6 +122,10 @@ public:
     Layout layout(const Layout& start) const;
 
 private:
+    /// One of such items, of which a copy is kept if this trial has none yet.
+    template <class Item>
+    Item& edited(int i, std::vector<Item>& items, std::vector<long>& trial, std::vector<int>& edited,
+                 std::vector<Item>& old);
     ArcState& edit_arc(int a);
     void unthread(int v);
     bool ring_or_fan(int v) const;
