@@ -15,7 +15,7 @@
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings/shortcomings.h"
 
-namespace spia {
+namespace spia::cases_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -165,4 +165,4 @@ TEST_F(Cases, K14SeamsActOnSolidsAndCornersAreSaid)
     EXPECT_LT(strain(run("06-tray.step", solid)), 1e-3);
 }
 
-} // namespace spia
+} // namespace spia::cases_test

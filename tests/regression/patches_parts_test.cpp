@@ -11,7 +11,7 @@
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 
-namespace spia {
+namespace spia::patches_parts_test {
 namespace {
 
 const std::filesystem::path folder = SPIA_SOURCE_DIR "/../shared/data/fe";
@@ -50,4 +50,4 @@ TEST_P(PerforatedParts, BecomePatchesWithoutAFoldWithinTheTolerance)
     std::filesystem::remove(file);
 }
 
-} // namespace spia
+} // namespace spia::patches_parts_test

@@ -11,7 +11,7 @@
 #include "engine/pipeline/session.h"
 #include "engine/report/json/report_json.h"
 
-namespace spia {
+namespace spia::real_parts_test {
 namespace {
 
 const std::filesystem::path folder = SPIA_SOURCE_DIR "/../shared/data";
@@ -136,4 +136,4 @@ TEST(RealPartsRefused, TwoPiecesInOneFileAreNamed)
     }
 }
 
-} // namespace spia
+} // namespace spia::real_parts_test

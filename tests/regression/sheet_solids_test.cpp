@@ -18,7 +18,7 @@
 #include "tests/support/cad/exact_volume.h"
 #include "tests/support/flat_area.h"
 
-namespace spia {
+namespace spia::sheet_solids_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ TEST(SheetSolids, TheDrawnConeHasAMiddleSurfaceAsGoodAsItsSkin)
     EXPECT_EQ(session.blank->flipped_triangles, 0);
 }
 
-} // namespace spia
+} // namespace spia::sheet_solids_test

@@ -9,7 +9,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/unfold/automatic_unfolding.h"
 
-namespace spia {
+namespace spia::unfold_parts_test {
 namespace {
 
 const std::filesystem::path folder = SPIA_SOURCE_DIR "/../shared/data";
@@ -70,4 +70,4 @@ INSTANTIATE_TEST_SUITE_P(SharedData, BentParts,
                              return name;
                          });
 
-} // namespace spia
+} // namespace spia::unfold_parts_test

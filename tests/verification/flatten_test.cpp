@@ -14,7 +14,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/square_cup.h"
 
-namespace spia {
+namespace spia::flatten_test {
 namespace {
 
 FlattenOptions mild_steel(double r = 1.77)
@@ -261,4 +261,4 @@ TEST(Flatten, CancellingStopsAtTheNextStep)
     EXPECT_EQ(steps, 5);
 }
 
-} // namespace spia
+} // namespace spia::flatten_test

@@ -13,7 +13,7 @@
 #include "tests/support/shape_family.h"
 #include "tests/support/square_cup.h"
 
-namespace spia {
+namespace spia::process_test {
 namespace {
 
 FlattenOptions steel(double r0, double r45, double r90)
@@ -434,4 +434,4 @@ TEST(PlanarAnisotropy, ARoundPartNeedsABlankWithFourWaves)
     EXPECT_LT((radii(same, angle) - radii(normal, other_angle)).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-} // namespace spia
+} // namespace spia::process_test

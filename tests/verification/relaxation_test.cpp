@@ -7,7 +7,7 @@
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::relaxation_test {
 namespace {
 
 Material mild_steel() { return {"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1.77, 1.77, 1.77, ""}; }
@@ -70,4 +70,4 @@ TEST(Relaxation, SolvesACrumpledSheetAndSaysWhatItGaveUp)
     EXPECT_EQ(tried[2].reason.substr(0, 9), "converged") << tried[2].reason;
 }
 
-} // namespace spia
+} // namespace spia::relaxation_test

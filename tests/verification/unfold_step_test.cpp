@@ -10,7 +10,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 
-namespace spia {
+namespace spia::unfold_step_test {
 namespace {
 
 using std::numbers::pi;
@@ -258,4 +258,4 @@ TEST(UnfoldStep, HasTheSameBitsOnOneThreadAndOnTwo)
     EXPECT_EQ(position[0], position[1]);
 }
 
-} // namespace spia
+} // namespace spia::unfold_step_test

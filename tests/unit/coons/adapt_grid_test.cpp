@@ -13,7 +13,7 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/coons/outlines.h"
 
-namespace spia {
+namespace spia::adapt_grid_test {
 namespace {
 
 using std::numbers::pi;
@@ -286,4 +286,4 @@ INSTANTIATE_TEST_SUITE_P(Random, AdaptedOutline, testing::Values(0, 1, 2, 3, 5, 
 });
 
 } // namespace
-} // namespace spia
+} // namespace spia::adapt_grid_test

@@ -8,7 +8,7 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/coons/outlines.h"
 
-namespace spia {
+namespace spia::boundary_test {
 
 namespace {
 
@@ -140,4 +140,4 @@ TEST(Boundary, MessagesCallVerticesByTheirNumberInTheFile)
     }
 }
 
-} // namespace spia
+} // namespace spia::boundary_test

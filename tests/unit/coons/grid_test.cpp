@@ -10,7 +10,7 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/coons/outlines.h"
 
-namespace spia {
+namespace spia::grid_test {
 
 namespace {
 
@@ -271,4 +271,4 @@ TEST(CoonsGrid, StopsWhenAsked)
                  Cancelled);
 }
 
-} // namespace spia
+} // namespace spia::grid_test

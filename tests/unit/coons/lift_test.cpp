@@ -9,7 +9,7 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/coons/outlines.h"
 
-namespace spia {
+namespace spia::lift_test {
 
 namespace {
 
@@ -126,4 +126,4 @@ TEST(Lift, ANodeOffTheBlankIsNamed)
     }
 }
 
-} // namespace spia
+} // namespace spia::lift_test

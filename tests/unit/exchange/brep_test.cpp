@@ -10,7 +10,7 @@
 #include "tests/unit/exchange/sample_faces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::brep_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +126,4 @@ TEST(BrepFiles, AnEndWithinANumberIsSaid)
     EXPECT_NE(said.find("within '5.403E'"), std::string::npos) << said;
 }
 
-} // namespace spia
+} // namespace spia::brep_test

@@ -8,7 +8,7 @@
 #include "tests/unit/exchange/sample_assembly.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::cad_choice_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ TEST(CadChoice, OneBodyOfAnIgesFileGivesItsSkin)
     }
 }
 
-} // namespace spia
+} // namespace spia::cad_choice_test

@@ -14,7 +14,7 @@
 #include "tests/unit/exchange/sample_solids.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::cad_damage_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ TEST_F(CadDamageTest, ASolidWithSuchAUnitIsThatWithAWholeOne)
     EXPECT_NEAR(star.thickness_mm.value(), 2, 1e-3);
 }
 
-} // namespace spia
+} // namespace spia::cad_damage_test

@@ -12,7 +12,7 @@
 #include "tests/unit/exchange/sample_faces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::cad_faults_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ TEST(CadFaults, OptionsWithoutSenseAreRefusedInWords)
     EXPECT_EQ(refusal(folder / "plate.brep", {.sewing_tolerance = 2, .deflection = 1e-3, .angle = 0.02}), "");
 }
 
-} // namespace spia
+} // namespace spia::cad_faults_test

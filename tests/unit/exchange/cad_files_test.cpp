@@ -12,7 +12,7 @@
 #include "tests/unit/exchange/sample_surface.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::cad_files_test {
 namespace {
 
 /// Equal bit for bit, not just nearly.
@@ -337,4 +337,4 @@ TEST(Step, PatchesThatMeetShareTheirEdgeInOneOpenShell)
     EXPECT_EQ(read_step_surfaces(folder / "s.step").size(), 2u);
 }
 
-} // namespace spia
+} // namespace spia::cad_files_test

@@ -10,7 +10,7 @@
 #include "tests/unit/exchange/sample_patches.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::cad_panel_test {
 namespace {
 
 constexpr double gap = 0.2; // mm
@@ -125,4 +125,4 @@ TEST(CadPanel, StepOfAHundredPatchesIsOneSheetToo)
     expect_panel(part.mesh, part.cad->deflection);
 }
 
-} // namespace spia
+} // namespace spia::cad_panel_test

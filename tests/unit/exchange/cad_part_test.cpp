@@ -19,7 +19,7 @@
 #include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::cad_part_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -559,4 +559,4 @@ TEST(CadPart, DamagedFilesAreRefusedOrReadButNeverCrash)
     }
 }
 
-} // namespace spia
+} // namespace spia::cad_part_test

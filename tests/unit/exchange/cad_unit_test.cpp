@@ -10,7 +10,7 @@
 #include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::cad_unit_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ TEST(CadUnit, OfStepIsTheMillimetreWhereNoneIsStated)
     EXPECT_THROW(area_of(file, LengthUnit::inch), InputError);
 }
 
-} // namespace spia
+} // namespace spia::cad_unit_test

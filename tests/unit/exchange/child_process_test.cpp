@@ -15,7 +15,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/cad/child_process.h"
 
-namespace spia {
+namespace spia::child_process_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -130,4 +130,4 @@ TEST(ChildProcess, DoesNotOutliveItsParent)
     ::close(alive[0]);
 }
 
-} // namespace spia
+} // namespace spia::child_process_test

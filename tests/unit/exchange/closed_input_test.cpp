@@ -19,7 +19,7 @@
 #include "tests/unit/exchange/sample_meshes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::closed_input_test {
 namespace {
 
 using shapes::PlaneLoop;
@@ -469,4 +469,4 @@ TEST(SharedCases, SheetsWithoutACadSolidHaveTheirThickness)
     EXPECT_NEAR(area(middle.mesh), 71.283 * 30, 3e-4 * 71.283 * 30) << "of chords";
 }
 
-} // namespace spia
+} // namespace spia::closed_input_test

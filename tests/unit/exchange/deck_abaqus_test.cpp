@@ -5,7 +5,7 @@
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deck_abaqus_test {
 namespace {
 
 using sample::has_note;
@@ -261,4 +261,4 @@ TEST(AbaqusDeck, NodesStandInTheSystemBeforeThem)
     expect(third("*SYSTEM\n0,0,0,0,1,0\n", "*NODE, SYSTEM=C\n"), {-1, std::sqrt(3), 5});
 }
 
-} // namespace spia
+} // namespace spia::deck_abaqus_test

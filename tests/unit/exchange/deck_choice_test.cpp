@@ -8,7 +8,7 @@
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deck_choice_test {
 namespace {
 
 Deck strip() { return sample::read("a.k", sample::dyna()); }
@@ -205,4 +205,4 @@ TEST_F(PartOfDeck, ShellsTurnedOverAreTurnedBack)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::deck_choice_test

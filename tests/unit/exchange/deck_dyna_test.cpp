@@ -5,7 +5,7 @@
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deck_dyna_test {
 namespace {
 
 using sample::has_note;
@@ -409,4 +409,4 @@ TEST(DynaDeck, StopsWhenAsked)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::deck_dyna_test

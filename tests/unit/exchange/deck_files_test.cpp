@@ -7,7 +7,7 @@
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deck_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ TEST(RealDecks, OnePartOfACarAndOnePropertyOfAWing)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::deck_files_test

@@ -6,7 +6,7 @@
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deck_gmsh_radioss_test {
 namespace {
 
 using sample::has_note;
@@ -160,4 +160,4 @@ TEST(RadiossDeck, IsRefusedWithItsLineWhereItIsWrong)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::deck_gmsh_radioss_test

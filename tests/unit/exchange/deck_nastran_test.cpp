@@ -5,7 +5,7 @@
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deck_nastran_test {
 namespace {
 
 using sample::has_note;
@@ -202,4 +202,4 @@ TEST(NastranDeck, IsRefusedWithItsLineWhereItIsWrong)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::deck_nastran_test

@@ -13,7 +13,7 @@
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::gltf_test {
 namespace {
 
 tinygltf::Model read(const std::filesystem::path& path)
@@ -313,4 +313,4 @@ TEST(ColourMap, LightnessRisesEvenlyFromEndToEnd)
     EXPECT_EQ(viridis(2), viridis(1));
 }
 
-} // namespace spia
+} // namespace spia::gltf_test

@@ -5,7 +5,7 @@
 #include "engine/part/part_file.h"
 #include "tests/unit/exchange/sample_decks.h"
 
-namespace spia {
+namespace spia::gmsh_forms_test {
 namespace {
 
 using sample::refusal;
@@ -150,4 +150,4 @@ TEST(GmshForms, ACutOffBinaryMeshIsRefusedReadably)
     EXPECT_NE(refusal("a.msh", unknown.text).find("elements of type 34 are not known"), std::string::npos);
 }
 
-} // namespace spia
+} // namespace spia::gmsh_forms_test

@@ -13,7 +13,7 @@
 #include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::iga_test {
 namespace {
 
 /// The same joint, whichever side is named first.
@@ -339,4 +339,4 @@ TEST(IgaFiles, MfemCountsCornersAndEdgesOnce)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::iga_test

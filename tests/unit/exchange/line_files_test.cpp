@@ -7,7 +7,7 @@
 #include "engine/exchange/lines/write_lines.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::line_files_test {
 namespace {
 
 using std::numbers::pi;
@@ -305,4 +305,4 @@ TEST(LineFiles, LinesThatAreNoneAreRefusedBeforeAFileAppears)
     EXPECT_TRUE(folder.names().empty());
 }
 
-} // namespace spia
+} // namespace spia::line_files_test

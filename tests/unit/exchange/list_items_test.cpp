@@ -12,7 +12,7 @@
 #include "tests/unit/exchange/sample_assembly.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::list_items_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -175,4 +175,4 @@ TEST(ListItems, NamesTheFileThatIsDamaged)
     EXPECT_THROW(list_items(folder / "car.step", Progress([](double, std::string_view) {}, stop)), Cancelled);
 }
 
-} // namespace spia
+} // namespace spia::list_items_test

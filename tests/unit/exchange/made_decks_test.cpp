@@ -7,7 +7,7 @@
 #include "tests/unit/exchange/plain_deck.h"
 #include "tests/unit/exchange/sample_decks.h"
 
-namespace spia {
+namespace spia::made_decks_test {
 namespace {
 
 using sample::Chance;
@@ -404,4 +404,4 @@ TEST(MadeDecks, InstancesWithoutEndAreRefused)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::made_decks_test

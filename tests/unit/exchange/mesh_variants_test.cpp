@@ -11,7 +11,7 @@
 #include "tests/unit/exchange/sample_meshes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::mesh_variants_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +215,4 @@ TEST_F(MeshVariants, PlaneAndMembraneElementsOfAbaqusAreShells)
     }
 }
 
-} // namespace spia
+} // namespace spia::mesh_variants_test

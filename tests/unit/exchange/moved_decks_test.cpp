@@ -8,7 +8,7 @@
 #include "engine/mesh/topology.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::moved_decks_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ TEST_F(MovedDecks, TheCasesOfUsersAreWhole)
     }
 }
 
-} // namespace spia
+} // namespace spia::moved_decks_test

@@ -18,7 +18,7 @@
 #include "engine/part/vertex_numbers.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::original_results_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -276,4 +276,4 @@ TEST(RemeshedNumbers, TrianglesOfCadPartsAreCountedAnewAndKnowTheirFace)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::original_results_test

@@ -16,7 +16,7 @@
 #include "tests/unit/exchange/sample_meshes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::read_part_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -350,4 +350,4 @@ INSTANTIATE_TEST_SUITE_P(
         return name;
     });
 
-} // namespace spia
+} // namespace spia::read_part_test

@@ -18,7 +18,7 @@
 #include "engine/exchange/lines/write_dxf.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::shop_dxf_test {
 namespace {
 
 using std::numbers::pi;
@@ -502,4 +502,4 @@ TEST(ShopDxf, EveryObjectHasAHandleOfItsOwn)
     }
 }
 
-} // namespace spia
+} // namespace spia::shop_dxf_test

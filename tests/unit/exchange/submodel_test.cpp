@@ -5,7 +5,7 @@
 #include "tests/unit/exchange/plain_deck.h"
 #include "tests/unit/exchange/sample_decks.h"
 
-namespace spia {
+namespace spia::submodel_test {
 namespace {
 
 using sample::Chance;
@@ -280,4 +280,4 @@ TEST(NodeTransform, WhatIsNotReadIsADoubtWithItsLine)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::submodel_test

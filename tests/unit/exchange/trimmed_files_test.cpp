@@ -12,7 +12,7 @@
 #include "tests/unit/exchange/sample_surface.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::trimmed_files_test {
 namespace {
 
 using std::numbers::pi;
@@ -125,4 +125,4 @@ TEST(TrimmedFiles, WithoutHolesAreAsBefore)
     EXPECT_EQ(read_back(folder / "none.igs").loops, 1);
 }
 
-} // namespace spia
+} // namespace spia::trimmed_files_test

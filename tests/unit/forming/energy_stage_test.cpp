@@ -7,7 +7,7 @@
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::energy_stage_test {
 namespace {
 
 Material mild_steel() { return {"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1.77, 1.77, 1.77, ""}; }
@@ -71,4 +71,4 @@ TEST(EnergyStage, ASpringStretchesAStripAsFarAsItsForceGoes)
                                            // elastic Poisson's ratio
 }
 
-} // namespace spia
+} // namespace spia::energy_stage_test

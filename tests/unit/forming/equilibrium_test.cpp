@@ -6,7 +6,7 @@
 
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::equilibrium_test {
 namespace {
 
 Material mild_steel() { return {"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1.77, 1.77, 1.77, ""}; }
@@ -259,4 +259,4 @@ TEST(Equilibrium, VerticesAgreeWhereTheStrainIsUniform)
             EXPECT_NEAR(mismatch[v], 1, 1e-12) << v;
 }
 
-} // namespace spia
+} // namespace spia::equilibrium_test

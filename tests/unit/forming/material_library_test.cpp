@@ -12,7 +12,7 @@
 #include "engine/core/error.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::material_library_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -467,4 +467,4 @@ TEST(MaterialLibrary, AFileThatIsNoJsonObjectIsRefusedByItsName)
               file.string() + ": /name is there twice; leave one of them");
 }
 
-} // namespace spia
+} // namespace spia::material_library_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::membrane_test {
 namespace {
 
 Material mild_steel() { return {"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1.77, 1.77, 1.77, ""}; }
@@ -236,4 +236,4 @@ TEST(PlanarAnisotropy, TensionAlongAcrossAndBetweenGivesTheLankfordCoefficients)
     EXPECT_NEAR(between.equivalent_stress * between.equivalent_strain, between.stress[0] * 0.2, 1e-9);
 }
 
-} // namespace spia
+} // namespace spia::membrane_test

@@ -13,7 +13,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::process_test {
 namespace {
 
 const Material steel{"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1.77, 1.77, 1.77, ""};
@@ -308,4 +308,4 @@ TEST(Process, TheTangentHoldsWithBeadsFrictionAndPins)
     }
 }
 
-} // namespace spia
+} // namespace spia::process_test

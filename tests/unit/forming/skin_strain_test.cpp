@@ -4,7 +4,7 @@
 
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::skin_strain_test {
 namespace {
 
 constexpr double h = 1.2; // mm
@@ -129,4 +129,4 @@ TEST(SkinStrain, AFoldIsTakenAsBentToARadiusOfOneThickness)
     EXPECT_NEAR(skin.inner.strain_minor.minCoeff(), std::log(0.5), 1e-6);
 }
 
-} // namespace spia
+} // namespace spia::skin_strain_test

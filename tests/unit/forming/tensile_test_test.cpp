@@ -13,7 +13,7 @@
 #include "engine/options/sheet_options.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::tensile_test_test {
 namespace {
 
 using testing::AllOf;
@@ -297,4 +297,4 @@ TEST(FitHardening, ALawThatDoesNotDescribeTheCurveSaysWhy)
     EXPECT_FALSE(fit_of(fit_hardening(x, softening), "voce").law);
 }
 
-} // namespace spia
+} // namespace spia::tensile_test_test

@@ -17,7 +17,7 @@
 #include "tests/support/check_layout.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::edges_test {
 
 namespace {
 
@@ -443,4 +443,4 @@ TEST(Edges, CutsStaySidesOfPatches)
     EXPECT_NEAR(length_of_kept(layout), cut, 1e-9 * cut);
 }
 
-} // namespace spia
+} // namespace spia::edges_test

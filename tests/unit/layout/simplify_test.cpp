@@ -17,7 +17,7 @@
 #include "tests/support/seeded_random.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::simplify_test {
 namespace {
 
 using std::numbers::pi;
@@ -307,4 +307,4 @@ TEST(LayoutMesh, UndoneTrialsLeaveItAsItWas)
     EXPECT_TRUE(same_bits(mesh.layout(sheet.start), before));
 }
 
-} // namespace spia
+} // namespace spia::simplify_test

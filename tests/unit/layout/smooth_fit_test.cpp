@@ -9,7 +9,7 @@
 #include "tests/support/joined_patches.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::smooth_fit_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -113,4 +113,4 @@ TEST(SmoothFit, KeepsPatchesThatWouldBeWorse)
     require_watertight(fit.patches);
 }
 
-} // namespace spia
+} // namespace spia::smooth_fit_test

@@ -8,7 +8,7 @@
 #include "engine/mesh/box_tree.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::closest_point_test {
 
 namespace {
 
@@ -198,4 +198,4 @@ TEST(ClosestPoint, MeshWithoutFacesOrWithWrongVerticesIsRefused)
     EXPECT_THROW(ClosestPointSearch{mesh}, InputError);
 }
 
-} // namespace spia
+} // namespace spia::closest_point_test

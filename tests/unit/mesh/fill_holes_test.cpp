@@ -11,7 +11,7 @@
 #include "tests/support/seeded_random.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::fill_holes_test {
 
 namespace {
 
@@ -220,4 +220,4 @@ TEST(MeshPolygon, CoversTheInsideOfNonConvexPolygonsOnce)
     EXPECT_EQ(mesh_polygon(star.rowwise().reverse()).triangle.cols(), 0);
 }
 
-} // namespace spia
+} // namespace spia::fill_holes_test

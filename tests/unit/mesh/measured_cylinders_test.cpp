@@ -12,7 +12,7 @@
 #include "tests/support/seeded_random.h"
 #include "tests/support/sheet_solid.h"
 
-namespace spia {
+namespace spia::measured_cylinders_test {
 namespace {
 
 using shapes::BentSheet;
@@ -109,4 +109,4 @@ TEST(MeasuredCylinders, AreNotFoundInSheetThatIsFoldedSharply)
     }
 }
 
-} // namespace spia
+} // namespace spia::measured_cylinders_test

@@ -6,7 +6,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"
 
-namespace spia {
+namespace spia::open_sinks_test {
 namespace {
 
 /// A plate of 60 x 40 x 2 mm; its border at y = 0 goes that far into it in the middle, and leans by
@@ -37,4 +37,4 @@ TEST(OpenSinks, AreHollowAndTurnByMoreThanABorderDoes)
     EXPECT_EQ(sinks_of(plate(-10)), 0u) << "bulges";
 }
 
-} // namespace spia
+} // namespace spia::open_sinks_test

@@ -10,7 +10,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::pick_test {
 namespace {
 
 Eigen::Vector3d random_point(std::mt19937& random, double size)
@@ -203,4 +203,4 @@ TEST(RayPicker, BoxIsThatOfItsFaces)
     EXPECT_THROW(RayPicker(TriMesh{}), InputError);
 }
 
-} // namespace spia
+} // namespace spia::pick_test

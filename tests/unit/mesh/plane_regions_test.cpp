@@ -7,7 +7,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"
 
-namespace spia {
+namespace spia::plane_regions_test {
 namespace {
 
 constexpr double within = 1e-3; // mm
@@ -78,4 +78,4 @@ TEST(PlaneRegions, LieAsTheirLargestTrianglesDo)
     EXPECT_EQ(Planes{mesh}.count(), 1);
 }
 
-} // namespace spia
+} // namespace spia::plane_regions_test

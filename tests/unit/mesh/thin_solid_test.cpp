@@ -12,7 +12,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"
 
-namespace spia {
+namespace spia::thin_solid_test {
 namespace {
 
 using shapes::BentSheet;
@@ -333,4 +333,4 @@ TEST(ThinSolid, TakesAboutASecondForAHundredThousandTriangles)
     EXPECT_LT(seconds, 20) << "unoptimised and under a sanitizer, too";
 }
 
-} // namespace spia
+} // namespace spia::thin_solid_test

@@ -10,7 +10,7 @@
 #include "engine/nurbs/span_borders.h"
 #include "tests/support/known_surfaces.h"
 
-namespace spia {
+namespace spia::fit_patch_test {
 
 namespace {
 
@@ -187,4 +187,4 @@ TEST(FitPatch, IsTheLeastSquaresSurfaceAmongThoseWithItsBorder)
             }
 }
 
-} // namespace spia
+} // namespace spia::fit_patch_test

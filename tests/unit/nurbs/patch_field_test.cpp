@@ -10,7 +10,7 @@
 #include "tests/support/joined_patches.h"
 #include "tests/support/known_surfaces.h"
 
-namespace spia {
+namespace spia::patch_field_test {
 namespace {
 
 /// What the field has at the lines of a grid.
@@ -188,4 +188,4 @@ TEST(SharedControls, CountWhatIsSharedOnce)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::patch_field_test

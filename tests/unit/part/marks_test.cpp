@@ -17,7 +17,7 @@
 #include "tests/unit/exchange/examined_mesh.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::marks_test {
 namespace {
 
 using shapes::BentSheet;
@@ -434,4 +434,4 @@ TEST(SharedCases, ShallowMarksArePassedOver)
     }
 }
 
-} // namespace spia
+} // namespace spia::marks_test

@@ -15,7 +15,7 @@
 #include "tests/unit/exchange/sample_solids.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::solid_part_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -276,4 +276,4 @@ TEST(SolidBlock, IsTakenWithADoubt)
     }
 }
 
-} // namespace spia
+} // namespace spia::solid_part_test

@@ -18,7 +18,7 @@
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
-namespace spia {
+namespace spia::cut_bends_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ TEST_P(WideHoles, OfAnStlFileAreAsTheyWereMade) { expect_of_stl(shapes::random_w
 INSTANTIATE_TEST_SUITE_P(Family, WideHoles, testing::Range<std::uint64_t>(1, 41));
 INSTANTIATE_TEST_SUITE_P(Family, CutBends, testing::Range<std::uint64_t>(1, 41));
 
-} // namespace spia
+} // namespace spia::cut_bends_test

@@ -23,7 +23,7 @@
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deck_outputs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -563,4 +563,4 @@ TEST(DeckOutputs, OfASolvedPartConserveTheVolumeOfItsBlank)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::deck_outputs_test

@@ -6,7 +6,7 @@
 #include "tests/support/joined_patches.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::deform_file_test {
 namespace {
 
 std::string refusal(const std::string& text)
@@ -79,4 +79,4 @@ TEST(DeformFile, WhatIsWrongIsNamedWithItsPlace)
         "moved already"));
 }
 
-} // namespace spia
+} // namespace spia::deform_file_test

@@ -15,7 +15,7 @@
 #include "tests/support/cad/random_bent_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::drawn_bends_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST_P(DrawnBends, BesideAnEmbossOfAnStlFileAreAsTheyWereMade) { expect_all(CadF
 
 INSTANTIATE_TEST_SUITE_P(Family, DrawnBends, testing::Range<std::uint64_t>(1, 13));
 
-} // namespace spia
+} // namespace spia::drawn_bends_test

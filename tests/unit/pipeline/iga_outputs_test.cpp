@@ -14,7 +14,7 @@
 #include "tests/support/iga_readers.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::iga_outputs_test {
 namespace {
 
 Session finished(const char* file)
@@ -134,4 +134,4 @@ TEST(IgaOutputs, AreLeftOutWithoutASurface)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::iga_outputs_test

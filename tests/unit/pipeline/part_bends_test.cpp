@@ -29,7 +29,7 @@
 #include "tests/support/sheet_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::part_bends_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -452,4 +452,4 @@ TEST_F(PartBends, CasesOfOneBracket)
     EXPECT_EQ(right.part->solid->thickness, 2);
 }
 
-} // namespace spia
+} // namespace spia::part_bends_test

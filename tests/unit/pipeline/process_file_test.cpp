@@ -14,7 +14,7 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::process_file_test {
 namespace {
 
 const std::filesystem::path materials = SPIA_SOURCE_DIR "/assets/materials";
@@ -205,4 +205,4 @@ TEST(Shortcomings, TellOfConditionsThatCannotBeMeant)
     EXPECT_TRUE(says("on 180 of 180 mm of the edge the sheet is parallel"));
 }
 
-} // namespace spia
+} // namespace spia::process_file_test

@@ -18,7 +18,7 @@
 #include "tests/support/mesh_file.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::remesh_test {
 namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
@@ -242,4 +242,4 @@ TEST(RemeshedPart, ANumberOnASeamIsAVertexOnEachBank)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::remesh_test

@@ -19,7 +19,7 @@
 #include "tests/support/kirchhoff_love.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::scordelis_lo_test {
 namespace {
 
 constexpr double radius = 25, span = 50, half_angle = 40 * std::numbers::pi / 180, reference = 0.3006;
@@ -143,4 +143,4 @@ TEST(ScordelisLo, OfTheSameRoofAsTwoPatchesThroughEveryFile)
     }
 }
 
-} // namespace spia
+} // namespace spia::scordelis_lo_test

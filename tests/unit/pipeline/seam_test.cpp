@@ -19,7 +19,7 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::seam_test {
 namespace {
 
 constexpr double radius = 25, height = 120;
@@ -134,4 +134,4 @@ TEST_F(Seam, IsReadFromAFile)
     }
 }
 
-} // namespace spia
+} // namespace spia::seam_test

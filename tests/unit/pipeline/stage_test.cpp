@@ -17,7 +17,7 @@
 #include "engine/report/json/report_json.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::stage_test {
 namespace {
 
 Session sample(const char* file)
@@ -465,4 +465,4 @@ TEST(Chain, NumbersThatMayBeMeantInAnotherUnitAreAskedAbout)
     EXPECT_NE(all.find("the friction coefficient of binder is 12"), std::string::npos) << all;
 }
 
-} // namespace spia
+} // namespace spia::stage_test

@@ -22,7 +22,7 @@
 #include "tests/support/sheet_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::stated_outline_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -378,4 +378,4 @@ TEST_F(StatedOutline, TheHolesOfTheFanBracketHaveTheRadiiOfItsFile)
         EXPECT_NEAR(radii[k], expected[k], 1e-12);
 }
 
-} // namespace spia
+} // namespace spia::stated_outline_test

@@ -14,7 +14,7 @@
 #include "tests/support/profile.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::straight_blank_test {
 namespace {
 
 using std::numbers::pi;
@@ -155,4 +155,4 @@ TEST(StraightBlank, TheRollingDirectionLiesAlongXAndTheStrainsStay)
     EXPECT_LT(session.blank->face.strain_equivalent.maxCoeff(), 1e-6);
 }
 
-} // namespace spia
+} // namespace spia::straight_blank_test

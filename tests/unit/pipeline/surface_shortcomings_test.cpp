@@ -14,7 +14,7 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia {
+namespace spia::surface_shortcomings_test {
 namespace {
 
 using testing::HasSubstr;
@@ -107,4 +107,4 @@ TEST(SurfaceShortcomings, AFoldIsSaidButNotACornerThatASmoothOutlineLacks)
     EXPECT_THAT(*folded_surface(session), HasSubstr(mention(option::patches, "FILE")));
 }
 
-} // namespace spia
+} // namespace spia::surface_shortcomings_test

@@ -18,7 +18,7 @@
 #include "tests/support/shape_family.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::automatic_unfolding_test {
 namespace {
 
 using shapes::Profile;
@@ -241,4 +241,4 @@ TEST(AutomaticUnfolding, AFlatPartIsTakenAsItIs)
     }
 }
 
-} // namespace spia
+} // namespace spia::automatic_unfolding_test

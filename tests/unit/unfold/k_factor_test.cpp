@@ -5,7 +5,7 @@
 #include "engine/unfold/plan/k_factor.h"
 #include "tests/support/seeded_random.h"
 
-namespace spia {
+namespace spia::k_factor_test {
 namespace {
 
 std::string refusal(const std::string& table)
@@ -93,4 +93,4 @@ TEST(KFactor, ATableOfAnyBytesIsReadOrRefused)
     }
 }
 
-} // namespace spia
+} // namespace spia::k_factor_test

@@ -10,7 +10,7 @@
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 
-namespace spia {
+namespace spia::landed_overlap_test {
 namespace {
 
 using shapes::Patch;
@@ -191,4 +191,4 @@ TEST(LandedOverlap, FlapsOfASlotLandOnEachOtherIfTheyAreLongerThanHalfOfIt)
     }
 }
 
-} // namespace spia
+} // namespace spia::landed_overlap_test

@@ -12,7 +12,7 @@
 #include "tests/support/bent_parts.h"
 #include "tests/support/revolved.h"
 
-namespace spia {
+namespace spia::polish_test {
 namespace {
 
 FlattenOptions steel()
@@ -172,4 +172,4 @@ TEST(Polish, NeedsABlankWithoutFlips)
     EXPECT_THROW(polish(part.mesh, run, steel()), InputError);
 }
 
-} // namespace spia
+} // namespace spia::polish_test

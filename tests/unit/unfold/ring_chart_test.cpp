@@ -12,7 +12,7 @@
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 
-namespace spia {
+namespace spia::ring_chart_test {
 namespace {
 
 using std::numbers::pi;
@@ -288,4 +288,4 @@ TEST(RingChart, FrictionAndTheRollingDirectionAreRefusedOnARing)
     EXPECT_NE(refusal().find("its friction cannot be determined"), std::string::npos) << refusal();
 }
 
-} // namespace spia
+} // namespace spia::ring_chart_test

@@ -13,7 +13,7 @@
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::smooth_target_test {
 namespace {
 
 using std::numbers::pi;
@@ -275,4 +275,4 @@ TEST(SmoothTarget, TheFlangeOfAFenderGoesOnWithItsSkin)
     EXPECT_GT(edge, 5);
 }
 
-} // namespace spia
+} // namespace spia::smooth_target_test

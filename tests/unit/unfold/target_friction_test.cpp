@@ -12,7 +12,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 
-namespace spia {
+namespace spia::target_friction_test {
 namespace {
 
 using std::numbers::pi;
@@ -407,4 +407,4 @@ TEST(TargetFriction, BadValuesAreRefusedWithStepAndMember)
     EXPECT_THROW(unfold_step(strip.part, strip.part.position, strip.pick, steel(1)), InputError);
 }
 
-} // namespace spia
+} // namespace spia::target_friction_test

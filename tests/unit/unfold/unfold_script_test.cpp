@@ -13,7 +13,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 
-namespace spia {
+namespace spia::unfold_script_test {
 namespace {
 
 using shapes::Profile;
@@ -293,4 +293,4 @@ TEST(UnfoldScript, UnrollsSheetThatGoesAroundMoreThanOnceButNoTube)
     EXPECT_NE(run_unfolding(tube, {step}, steel()).failure.find("goes all around"), std::string::npos);
 }
 
-} // namespace spia
+} // namespace spia::unfold_script_test

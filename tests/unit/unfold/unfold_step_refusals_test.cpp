@@ -8,7 +8,7 @@
 #include "tests/support/square_cup.h"
 #include "tests/unit/unfold/step_fixture.h"
 
-namespace spia {
+namespace spia::unfold_step_refusals_test {
 
 using namespace steps;
 
@@ -122,4 +122,4 @@ TEST(UnfoldStep, ALoopBetweenFixedEdgesThatOverlapHasNoPlaceWithoutAFlip)
     }
 }
 
-} // namespace spia
+} // namespace spia::unfold_step_refusals_test

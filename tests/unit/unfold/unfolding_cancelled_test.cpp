@@ -8,7 +8,7 @@
 #include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/bent_parts.h"
 
-namespace spia {
+namespace spia::unfolding_cancelled_test {
 namespace {
 
 FlattenOptions steel()
@@ -75,4 +75,4 @@ TEST(UnfoldingCancelled, CountsTheStatesThatWereKeptFromBefore)
     }
 }
 
-} // namespace spia
+} // namespace spia::unfolding_cancelled_test
