@@ -52,12 +52,4 @@ Chords chords_of(const Layout& layout)
     return chords;
 }
 
-std::vector<double> mirrored(const std::vector<double>& borders)
-{
-    std::vector<double> result(borders.rbegin(), borders.rend());
-    for (double& t : result)
-        t = 1 - t;
-    return result;
-}
-
 } // namespace spia

@@ -18,7 +18,4 @@ struct Chords {
 
 Chords chords_of(const Layout& layout);
 
-/// Borders of spans as a curve has them, from those of its strip, and back. Exact for dyadic ones.
-std::vector<double> mirrored(const std::vector<double>& borders);
-
 } // namespace spia

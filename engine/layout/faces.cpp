@@ -28,7 +28,7 @@ double quality(const PlaneGraph& graph, const Face& face)
 }
 
 /// Two faces with a common curve as one, or nothing.
-Face united(const Face& a, const Face& b, int curve)
+Face united_faces(const Face& a, const Face& b, int curve)
 {
     const auto at = [&](const Face& face) {
         return size_t(std::find_if(face.begin(), face.end(), [&](CurveUse u) { return u.curve == curve; }) -
@@ -182,7 +182,7 @@ bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_an
         if (two.size() != 2 || two[0] == two[1] || faces[size_t(two[0])].size() != 3 ||
             faces[size_t(two[1])].size() != 3)
             continue;
-        const double q = quality(graph, united(faces[size_t(two[0])], faces[size_t(two[1])], curve));
+        const double q = quality(graph, united_faces(faces[size_t(two[0])], faces[size_t(two[1])], curve));
         if (q > std::sin(worst_angle))
             pairs.push_back({{two[0], two[1]}, curve, q});
     }
@@ -202,7 +202,7 @@ bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_an
             const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) {
                 return (p.face == std::array{f, other}) || (p.face == std::array{other, f});
             });
-            result.push_back(united(faces[size_t(f)], faces[size_t(other)], pair->curve));
+            result.push_back(united_faces(faces[size_t(f)], faces[size_t(other)], pair->curve));
         }
     }
     faces = std::move(result);

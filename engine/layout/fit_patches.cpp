@@ -10,6 +10,7 @@
 #include "engine/core/parallel.h"
 #include "engine/layout/patches_judge.h"
 #include "engine/mesh/locate.h"
+#include "engine/nurbs/basis.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/fit_patch.h"
 #include "engine/nurbs/refinement_indicators.h"

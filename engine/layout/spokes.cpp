@@ -87,7 +87,7 @@ Eigen::Matrix2Xd disc(const PlanarMesh& mesh, const Eigen::Matrix2Xd& border)
     return result;
 }
 
-bool cross(const Spokes& spokes, const Eigen::Matrix2Xd& polygon)
+bool spokes_cross(const Spokes& spokes, const Eigen::Matrix2Xd& polygon)
 {
     const Eigen::Index n = polygon.cols();
     for (size_t a = 0; a < spokes.line.size(); ++a) {
@@ -139,7 +139,7 @@ std::optional<Spokes> spokes(const Eigen::Matrix2Xd& polygon, const std::vector<
             line.col(samples) = result.centre;
             result.line.push_back(std::move(line));
         }
-        if (!cross(result, polygon))
+        if (!spokes_cross(result, polygon))
             return result;
     }
     return std::nullopt;

@@ -13,9 +13,9 @@ namespace spia {
 namespace {
 
 namespace bg = boost::geometry;
-using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
-using Box = bg::model::box<Corner>;
-using Entry = std::pair<Box, int>;
+using BoxCorner = bg::model::point<double, 2, bg::cs::cartesian>;
+using Box = bg::model::box<BoxCorner>;
+using BoxEntry = std::pair<Box, int>;
 
 constexpr double relative_tolerance = 1e-10;
 
@@ -64,7 +64,7 @@ struct PlanarLocator::Tree {
     Eigen::Matrix2Xd position;
     Eigen::Matrix3Xi triangle;
     double tolerance = 0;
-    bg::index::rtree<Entry, bg::index::quadratic<16>> boxes;
+    bg::index::rtree<BoxEntry, bg::index::quadratic<16>> boxes;
 
     std::array<Eigen::Vector2d, 3> corners(int face) const
     {
@@ -79,7 +79,7 @@ PlanarLocator::PlanarLocator(const Eigen::Matrix2Xd& position, const Eigen::Matr
     tree->triangle = triangle;
     if (position.cols() > 0)
         tree->tolerance = relative_tolerance * (position.rowwise().maxCoeff() - position.rowwise().minCoeff()).norm();
-    std::vector<Entry> entries;
+    std::vector<BoxEntry> entries;
     entries.reserve(size_t(triangle.cols()));
     for (int f = 0; f < triangle.cols(); ++f) {
         const auto [a, b, c] = tree->corners(f);
@@ -98,9 +98,9 @@ double PlanarLocator::tolerance() const { return tree_->tolerance; }
 
 MeshPoint PlanarLocator::nearest(const Eigen::Vector2d& point) const
 {
-    const Corner p(point.x(), point.y());
+    const BoxCorner p(point.x(), point.y());
     MeshPoint best;
-    const auto look = [&](const Entry& entry) {
+    const auto look = [&](const BoxEntry& entry) {
         const MeshPoint here = nearest_in_triangle(point, tree_->corners(entry.second), entry.second);
         if (better(here, best))
             best = here;
@@ -114,7 +114,7 @@ MeshPoint PlanarLocator::nearest(const Eigen::Vector2d& point) const
     for (auto it = tree_->boxes.qbegin(bg::index::nearest(p, 1)); it != tree_->boxes.qend(); ++it)
         look(*it);
     const double r = best.distance;
-    const Box around(Corner(point.x() - r, point.y() - r), Corner(point.x() + r, point.y() + r));
+    const Box around(BoxCorner(point.x() - r, point.y() - r), BoxCorner(point.x() + r, point.y() + r));
     for (auto it = tree_->boxes.qbegin(bg::index::intersects(around)); it != tree_->boxes.qend(); ++it)
         look(*it);
     return best;
@@ -123,7 +123,7 @@ MeshPoint PlanarLocator::nearest(const Eigen::Vector2d& point) const
 std::vector<MeshPoint> PlanarLocator::covering(const Eigen::Vector2d& point) const
 {
     const double r = tree_->tolerance;
-    const Box around(Corner(point.x() - r, point.y() - r), Corner(point.x() + r, point.y() + r));
+    const Box around(BoxCorner(point.x() - r, point.y() - r), BoxCorner(point.x() + r, point.y() + r));
     std::vector<MeshPoint> found;
     for (auto it = tree_->boxes.qbegin(bg::index::intersects(around)); it != tree_->boxes.qend(); ++it) {
         const MeshPoint here = nearest_in_triangle(point, tree_->corners(it->second), it->second);

@@ -77,4 +77,12 @@ std::vector<double> span_borders(const std::vector<double>& knots, int degree)
     return borders;
 }
 
+std::vector<double> mirrored(std::vector<double> knots)
+{
+    std::reverse(knots.begin(), knots.end());
+    for (double& knot : knots)
+        knot = 1 - knot;
+    return knots;
+}
+
 } // namespace spia

@@ -8,6 +8,7 @@
 #include "engine/coons/place_border.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/interpolate.h"
 
@@ -47,14 +48,6 @@ Eigen::VectorXd between_nodes(const Eigen::VectorXd& node, const std::vector<dou
         result[Eigen::Index(i)] = node[at.cell] + at.share * (node[at.cell + 1] - node[at.cell]);
     }
     return result;
-}
-
-std::vector<double> mirrored(std::vector<double> t)
-{
-    std::reverse(t.begin(), t.end());
-    for (double& value : t)
-        value = 1 - value;
-    return t;
 }
 
 /// From 1 at the border to 0 at the end of the first row of cells, with no slope at both.

@@ -20,14 +20,6 @@ double natural_rate(const std::vector<double>& knots, int degree)
     return (knots[p + 2] - knots[2]) / (knots[p + 1] - knots[1]);
 }
 
-std::vector<double> mirrored(std::vector<double> knots)
-{
-    std::reverse(knots.begin(), knots.end());
-    for (double& knot : knots)
-        knot = 1 - knot;
-    return knots;
-}
-
 /// Half of the way to both neighbours.
 std::vector<double> weights(const std::vector<double>& parameters)
 {

@@ -16,14 +16,6 @@ namespace {
 
 bool along_u(Side side) { return side == Side::v0 || side == Side::v1; }
 
-std::vector<int> controls(const MultiPatch& patches, PatchSide side, bool reversed = false)
-{
-    std::vector<int> result = side_controls(patches.patch[size_t(side.patch)], side.side);
-    if (reversed)
-        std::reverse(result.begin(), result.end());
-    return result;
-}
-
 /// What keeps two sides from being one curve; nothing if they are one.
 std::optional<std::string> difference(const MultiPatch& patches, const PatchInterface& joint)
 {
@@ -32,7 +24,8 @@ std::optional<std::string> difference(const MultiPatch& patches, const PatchInte
     if (p != q)
         return fmt::format("the degrees are {} and {}", p, q);
     const std::vector<double>&k = side_knots(a, joint.first.side), &l = side_knots(b, joint.second.side);
-    const std::vector<int> i = controls(patches, joint.first), j = controls(patches, joint.second, joint.reversed);
+    const std::vector<int> i = side_controls(patches, joint.first),
+                           j = side_controls(patches, joint.second, joint.reversed);
     if (i.size() != j.size() || k.size() != l.size())
         return fmt::format("there are {} and {} control points", i.size(), j.size());
     for (size_t n = 0; n < k.size(); ++n) {
@@ -56,7 +49,7 @@ std::optional<std::string> difference(const MultiPatch& patches, const PatchInte
 bool collapsed(const MultiPatch& patches, PatchSide side)
 {
     const Eigen::Matrix3Xd& control = patches.patch[size_t(side.patch)].control;
-    const std::vector<int> row = controls(patches, side);
+    const std::vector<int> row = side_controls(patches, side);
     return std::all_of(row.begin(), row.end(), [&](int c) { return control.col(c) == control.col(row.front()); });
 }
 
@@ -71,6 +64,14 @@ std::vector<int> side_controls(const NurbsSurface& surface, Side side)
     else
         for (int j = 0; j < surface.count_v; ++j)
             result.push_back(surface.index(side == Side::u0 ? 0 : surface.count_u - 1, j));
+    return result;
+}
+
+std::vector<int> side_controls(const MultiPatch& patches, PatchSide side, bool reversed)
+{
+    std::vector<int> result = side_controls(patches.patch[size_t(side.patch)], side.side);
+    if (reversed)
+        std::reverse(result.begin(), result.end());
     return result;
 }
 
@@ -138,7 +139,8 @@ SharedControls shared_controls(const MultiPatch& patches)
         return c;
     };
     for (const PatchInterface& joint : patches.interfaces) {
-        const std::vector<int> i = controls(patches, joint.first), j = controls(patches, joint.second, joint.reversed);
+        const std::vector<int> i = side_controls(patches, joint.first),
+                               j = side_controls(patches, joint.second, joint.reversed);
         for (size_t k = 0; k < i.size(); ++k) {
             const int a = root(result.offset[size_t(joint.first.patch)] + i[k]),
                       b = root(result.offset[size_t(joint.second.patch)] + j[k]);

@@ -42,6 +42,7 @@ MultiPatch joined(std::vector<NurbsSurface> patches);
 /// Control points of a side, in the order of its rising parameter: indices into
 /// NurbsSurface::control.
 std::vector<int> side_controls(const NurbsSurface& surface, Side side);
+std::vector<int> side_controls(const MultiPatch& patches, PatchSide side, bool reversed = false);
 
 /// Degree and knots of the curve of a side.
 int side_degree(const NurbsSurface& surface, Side side);

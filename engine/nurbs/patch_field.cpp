@@ -85,14 +85,6 @@ void require_values(const NurbsSurface& surface, const Eigen::VectorXd& value, c
                         name, surface.control.cols(), patch + 1));
 }
 
-std::vector<int> controls(const MultiPatch& patches, PatchSide side, bool reversed)
-{
-    std::vector<int> row = side_controls(patches.patch[size_t(side.patch)], side.side);
-    if (reversed)
-        std::reverse(row.begin(), row.end());
-    return row;
-}
-
 } // namespace
 
 double evaluate_field(const NurbsSurface& surface, const Eigen::VectorXd& value, double u, double v)
@@ -190,8 +182,8 @@ void require_field(const MultiPatch& patches, const PatchField& field)
     for (size_t p = 0; p < patches.patch.size(); ++p)
         require_values(patches.patch[p], field.value[p], field.name, p);
     for (const PatchInterface& joint : patches.interfaces) {
-        const std::vector<int> a = controls(patches, joint.first, false),
-                               b = controls(patches, joint.second, joint.reversed);
+        const std::vector<int> a = side_controls(patches, joint.first, false),
+                               b = side_controls(patches, joint.second, joint.reversed);
         for (size_t k = 0; k < a.size(); ++k)
             if (field.value[size_t(joint.first.patch)][a[k]] != field.value[size_t(joint.second.patch)][b[k]])
                 throw InputError(fmt::format("{} is not the same on {} and {}; share its borders", field.name,

@@ -11,6 +11,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/part/curved_faces.h"
 #include "engine/part/part_file.h"
+#include "engine/part/vertex_numbers.h"
 #include "engine/unfold/plan/bend_zones.h"
 #include "engine/unfold/plan/free_ends.h"
 
@@ -36,9 +37,6 @@ void number_anew(PartFile& part)
         std::iota(numbers->begin(), numbers->end(), 0);
     }
 }
-
-/// Numbers are those of faces and vertices that have been replaced.
-bool numbered_as_read(const PartFile& part) { return part.remeshed && !part.cad; }
 
 const std::vector<int>& faces_as_read(const PartFile& part)
 {

@@ -11,9 +11,6 @@
 namespace spia {
 namespace {
 
-/// Numbers are those of vertices that have been replaced; CAD parts have new ones.
-bool numbered_as_read(const PartFile& part) { return part.remeshed && !part.cad; }
-
 /// The numbers of a remeshed part's own vertices begin here: behind all of the file.
 int first_own(const PartFile& part)
 {
@@ -90,6 +87,8 @@ private:
 };
 
 } // namespace
+
+bool numbered_as_read(const PartFile& part) { return part.remeshed && !part.cad; }
 
 std::vector<int> vertices_called(const PartFile& part, int number)
 {

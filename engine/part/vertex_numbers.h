@@ -5,6 +5,9 @@ namespace spia {
 
 struct PartFile;
 
+/// Whether numbers are those of faces and vertices of the file that have been replaced; CAD parts have new ones.
+bool numbered_as_read(const PartFile& part);
+
 /// The vertices of the mesh that are called by a number of the file, in rising order; copies along
 /// a seam are called the same. Of a remeshed part those nearest to where it was, of a vertex on the
 /// boundary one on the boundary, of the copies along a seam one on each bank. Numbers beyond those

@@ -17,7 +17,7 @@
 namespace spia {
 namespace {
 
-constexpr std::string_view schema = "spia.unfold-states/2";
+constexpr std::string_view states_schema = "spia.unfold-states/2";
 
 template <class Derived> Json numbers(const Eigen::PlainObjectBase<Derived>& values)
 {
@@ -307,7 +307,7 @@ Json read_cbor(const std::filesystem::path& file)
     if (!Json::sax_parse(bytes, &shallow, Json::input_format_t::cbor))
         damaged("its content");
     Json json = Json::from_cbor(bytes, true, false);
-    if (!json.is_object() || text(json, "schema") != schema)
+    if (!json.is_object() || text(json, "schema") != states_schema)
         damaged("its schema");
     return json;
 }
@@ -319,7 +319,7 @@ std::string_view byte_order() { return std::endian::native == std::endian::littl
 void write_unfold_states(const std::filesystem::path& file, const TriMesh& part, const FlattenOptions& options,
                          const UnfoldScript& steps, const UnfoldRun& run)
 {
-    Json json = {{"schema", schema},        {"program", program_name()},    {"byte_order", byte_order()},
+    Json json = {{"schema", states_schema}, {"program", program_name()},    {"byte_order", byte_order()},
                  {"part", part_json(part)}, {"sheet", sheet_json(options)}, {"steps", Json::array()},
                  {"states", Json::array()}};
     for (size_t k = 0; k < run.states.size(); ++k) {

@@ -11,9 +11,9 @@
 namespace spia {
 namespace {
 
-using Vertex = OpenMesh::VertexHandle;
-using Halfedge = OpenMesh::HalfedgeHandle;
-using Face = OpenMesh::FaceHandle;
+using VertexHandle = OpenMesh::VertexHandle;
+using HalfedgeHandle = OpenMesh::HalfedgeHandle;
+using FaceHandle = OpenMesh::FaceHandle;
 
 class Flipper {
 public:
@@ -31,10 +31,10 @@ public:
     {
         bool changed = false;
         for (int i = 0; i < int(mesh_.n_faces()); ++i) {
-            const Face face(i);
+            const FaceHandle face(i);
             if (mesh_.status(face).deleted())
                 continue;
-            const Halfedge longest = longest_of(face);
+            const HalfedgeHandle longest = longest_of(face);
             if (height(longest) > height_)
                 continue;
             changed =
@@ -50,11 +50,11 @@ public:
         std::vector<int> label;
         int faces = 0;
         for (int i = 0; i < int(mesh_.n_faces()); ++i) {
-            const Face face(i);
+            const FaceHandle face(i);
             if (mesh_.status(face).deleted())
                 continue;
             int k = 0;
-            for (const Vertex v : mesh_.fv_range(face))
+            for (const VertexHandle v : mesh_.fv_range(face))
                 result.triangle(k++, faces) = v.idx();
             ++faces;
             if (!label_.empty())
@@ -66,37 +66,40 @@ public:
     }
 
 private:
-    Eigen::Vector3d at(Vertex v) const { return position_.col(v.idx()); }
-    Vertex from(Halfedge h) const { return mesh_.from_vertex_handle(h); }
-    Vertex to(Halfedge h) const { return mesh_.to_vertex_handle(h); }
-    Vertex top(Halfedge h) const { return to(mesh_.next_halfedge_handle(h)); }
-    double length(Halfedge h) const { return (at(to(h)) - at(from(h))).norm(); }
+    Eigen::Vector3d at(VertexHandle v) const { return position_.col(v.idx()); }
+    VertexHandle from(HalfedgeHandle h) const { return mesh_.from_vertex_handle(h); }
+    VertexHandle to(HalfedgeHandle h) const { return mesh_.to_vertex_handle(h); }
+    VertexHandle top(HalfedgeHandle h) const { return to(mesh_.next_halfedge_handle(h)); }
+    double length(HalfedgeHandle h) const { return (at(to(h)) - at(from(h))).norm(); }
 
-    Eigen::Vector3d area(Vertex a, Vertex b, Vertex c) const { return (at(b) - at(a)).cross(at(c) - at(a)) / 2; }
+    Eigen::Vector3d area(VertexHandle a, VertexHandle b, VertexHandle c) const
+    {
+        return (at(b) - at(a)).cross(at(c) - at(a)) / 2;
+    }
 
     /// Of a triangle over its longest edge.
-    double least_height(Vertex a, Vertex b, Vertex c) const
+    double least_height(VertexHandle a, VertexHandle b, VertexHandle c) const
     {
         const double longest = std::max({(at(b) - at(a)).norm(), (at(c) - at(b)).norm(), (at(a) - at(c)).norm()});
         return longest > 0 ? 2 * area(a, b, c).norm() / longest : 0;
     }
 
-    Halfedge longest_of(Face face) const
+    HalfedgeHandle longest_of(FaceHandle face) const
     {
-        Halfedge longest;
-        for (const Halfedge h : mesh_.fh_range(face))
+        HalfedgeHandle longest;
+        for (const HalfedgeHandle h : mesh_.fh_range(face))
             if (!longest.is_valid() || length(h) > length(longest))
                 longest = h;
         return longest;
     }
 
-    double height(Halfedge h) const { return least_height(from(h), to(h), top(h)); }
+    double height(HalfedgeHandle h) const { return least_height(from(h), to(h), top(h)); }
 
     /// Into a neighbour that is not thin itself: the normal of a thin face says nothing.
-    bool flip(Halfedge h)
+    bool flip(HalfedgeHandle h)
     {
-        const Halfedge o = mesh_.opposite_halfedge_handle(h);
-        const Vertex a = from(h), b = to(h), c = top(h), d = top(o);
+        const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
+        const VertexHandle a = from(h), b = to(h), c = top(h), d = top(o);
         const Eigen::Vector3d side = area(b, a, d);
         if (height(o) <= height_ || agree(area(a, b, c), side))
             return false;
@@ -109,11 +112,11 @@ private:
     }
 
     /// If it is no longer than the height: a needle.
-    bool join_shortest(Face face)
+    bool join_shortest(FaceHandle face)
     {
-        for (const Halfedge h : mesh_.fh_range(face))
+        for (const HalfedgeHandle h : mesh_.fh_range(face))
             if (length(h) <= height_)
-                for (const Halfedge way : {h, mesh_.opposite_halfedge_handle(h)})
+                for (const HalfedgeHandle way : {h, mesh_.opposite_halfedge_handle(h)})
                     if (mesh_.is_collapse_ok(way) && !turns_over(way)) {
                         mesh_.collapse(way);
                         return true;
@@ -122,17 +125,17 @@ private:
     }
 
     /// Whether a face that is not thin would look to the other side.
-    bool turns_over(Halfedge h) const
+    bool turns_over(HalfedgeHandle h) const
     {
-        for (const Face f : mesh_.vf_range(from(h))) {
-            std::array<Vertex, 3> v;
+        for (const FaceHandle f : mesh_.vf_range(from(h))) {
+            std::array<VertexHandle, 3> v;
             size_t k = 0;
-            for (const Vertex w : mesh_.fv_range(f))
+            for (const VertexHandle w : mesh_.fv_range(f))
                 v[k++] = w;
             const Eigen::Vector3d before = area(v[0], v[1], v[2]);
             if (least_height(v[0], v[1], v[2]) <= height_)
                 continue;
-            for (Vertex& w : v)
+            for (VertexHandle& w : v)
                 w = w == from(h) ? to(h) : w;
             if (before.dot(area(v[0], v[1], v[2])) < 0)
                 return true;
@@ -140,7 +143,7 @@ private:
         return false;
     }
 
-    bool different(Face f, Face g) const
+    bool different(FaceHandle f, FaceHandle g) const
     {
         return !label_.empty() && label_[size_t(f.idx())] != label_[size_t(g.idx())];
     }
@@ -153,14 +156,14 @@ private:
 
     /// Unless it looks to where its neighbours look, or the boundary would touch itself at the
     /// vertex over its edge.
-    bool cut_off(Face face, Halfedge h)
+    bool cut_off(FaceHandle face, HalfedgeHandle h)
     {
         if (mesh_.is_boundary(top(h)))
             return false;
         const Eigen::Vector3d thin = area(from(h), to(h), top(h));
         const bool well = [&] {
-            for (const Halfedge side : {mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)}) {
-                const Halfedge o = mesh_.opposite_halfedge_handle(side);
+            for (const HalfedgeHandle side : {mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)}) {
+                const HalfedgeHandle o = mesh_.opposite_halfedge_handle(side);
                 if (height(o) > height_ && !agree(thin, area(from(o), to(o), top(o))))
                     return false;
             }

@@ -206,7 +206,7 @@ Points divided(const Points& corners, double spacing)
 }
 
 /// Each triangle in four, as often as is said.
-TriMesh divided(const TriMesh& mesh, int times)
+TriMesh finer(const TriMesh& mesh, int times)
 {
     if (times == 0)
         return mesh;
@@ -232,7 +232,7 @@ TriMesh divided(const TriMesh& mesh, int times)
     result.triangle.resize(3, Eigen::Index(triangles.size()));
     for (size_t i = 0; i < triangles.size(); ++i)
         result.triangle.col(Eigen::Index(i)) = triangles[i];
-    return divided(result, times - 1);
+    return finer(result, times - 1);
 }
 
 /// The mesh without some triangles and the vertices that only they have.
@@ -403,7 +403,7 @@ RandomOutline random_outline(int kind, int number)
     for (int pieces = pieces_of_outline; result.part.triangles() == 0; pieces += 7)
         result.part = meshed_outline(divided(corners, length(corners) / pieces));
     if (kind == outline_kinds - 1)
-        result.part = with_holes(divided(result.part, 1), 1 + number % 20, random);
+        result.part = with_holes(finer(result.part, 1), 1 + number % 20, random);
     result.corner = random_corners(result.part, random);
     return result;
 }

@@ -7,10 +7,10 @@
 #include <gp_Circ.hxx>
 #include <gp_Lin.hxx>
 
+#include "engine/exchange/cad/occt_values.h"
+
 namespace spia {
 namespace {
-
-Eigen::Vector3d vector(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 constexpr int samples = 9;
 /// Of its extent, that a spline may be off the line or circle it is: what arcs have that were

@@ -13,8 +13,8 @@
 namespace spia {
 namespace {
 
-constexpr int pieces = 32; // of an edge
-constexpr int stride = 4;  // every how manieth point of it is asked
+constexpr int pieces_of_edge = 32;
+constexpr int stride = 4; // every how manieth point of it is asked
 
 using Polyline = std::vector<Eigen::Vector3d>;
 
@@ -22,7 +22,7 @@ using Polyline = std::vector<Eigen::Vector3d>;
 Polyline points_of(const TopoDS_Edge& edge)
 {
     try {
-        Polyline points = points_along(edge, pieces);
+        Polyline points = points_along(edge, pieces_of_edge);
         const bool finite = std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
         return finite ? points : Polyline();
     } catch (const Standard_Failure&) {

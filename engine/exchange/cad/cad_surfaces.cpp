@@ -10,12 +10,11 @@
 #include <cmath>
 
 #include "engine/core/small_dense.h"
+#include "engine/exchange/cad/occt_values.h"
 #include "engine/mesh/solid/fit/cylinder_fit.h"
 
 namespace spia {
 namespace {
-
-Eigen::Vector3d vector(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 constexpr double spline_off = 1e-4; // mm, that a spline is off the plane or cylinder it was made from
 

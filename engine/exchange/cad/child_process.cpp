@@ -20,10 +20,10 @@
 namespace spia {
 namespace {
 
-enum class Kind : char { progress, log, result, fault };
+enum class MessageKind : char { progress, log, result, fault };
 
 /// What goes through the pipe: kind, length, bytes.
-void send(int pipe, Kind kind, std::string_view bytes)
+void send(int pipe, MessageKind kind, std::string_view bytes)
 {
     const size_t length = bytes.size();
     std::string message(1, char(kind));
@@ -72,14 +72,15 @@ void end_with(pid_t parent)
     bound_this_process(busy);
     const Progress progress([&](double fraction, std::string_view step) {
         std::string bytes(reinterpret_cast<const char*>(&fraction), sizeof fraction);
-        send(pipe, Kind::progress, bytes.append(step));
+        send(pipe, MessageKind::progress, bytes.append(step));
     });
     try {
-        send(pipe, Kind::result, work(progress, [&](std::string_view text) { send(pipe, Kind::log, text); }));
+        send(pipe, MessageKind::result,
+             work(progress, [&](std::string_view text) { send(pipe, MessageKind::log, text); }));
     } catch (const std::bad_alloc&) {
-        send(pipe, Kind::fault, "it needs more memory than there is; it is damaged or far too large");
+        send(pipe, MessageKind::fault, "it needs more memory than there is; it is damaged or far too large");
     } catch (const std::exception& error) {
-        send(pipe, Kind::fault, error.what());
+        send(pipe, MessageKind::fault, error.what());
     }
     ::_exit(0);
 }
@@ -147,7 +148,7 @@ private:
 };
 
 /// Takes the first whole message out of what has arrived.
-std::optional<std::pair<Kind, std::string>> next_message(std::string& arrived)
+std::optional<std::pair<MessageKind, std::string>> next_message(std::string& arrived)
 {
     size_t length = 0;
     if (arrived.size() < 1 + sizeof length)
@@ -155,7 +156,7 @@ std::optional<std::pair<Kind, std::string>> next_message(std::string& arrived)
     std::memcpy(&length, arrived.data() + 1, sizeof length);
     if (arrived.size() - 1 - sizeof length < length)
         return {};
-    std::pair<Kind, std::string> message{Kind(arrived[0]), arrived.substr(1 + sizeof length, length)};
+    std::pair<MessageKind, std::string> message{MessageKind(arrived[0]), arrived.substr(1 + sizeof length, length)};
     arrived.erase(0, 1 + sizeof length + length);
     return message;
 }
@@ -181,11 +182,11 @@ std::string result_of(Child& child, const ChildLog& log, const Progress& progres
         }
         while (auto message = next_message(arrived)) {
             auto& [kind, bytes] = *message;
-            if (kind == Kind::result)
+            if (kind == MessageKind::result)
                 return std::move(bytes);
-            if (kind == Kind::fault)
+            if (kind == MessageKind::fault)
                 throw InputError(bytes);
-            if (kind == Kind::log)
+            if (kind == MessageKind::log)
                 log(bytes);
             else {
                 std::memcpy(&fraction, bytes.data(), sizeof fraction);

@@ -11,12 +11,11 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/cad/occt_session.h"
+#include "engine/exchange/cad/occt_values.h"
 #include "engine/exchange/provenance.h"
 
 namespace spia {
 namespace {
-
-Handle(TCollection_HAsciiString) text(const std::string& value) { return new TCollection_HAsciiString(value.c_str()); }
 
 /// What IGES calls the unit in its header.
 const char* iges_name(LengthUnit unit)
@@ -38,12 +37,12 @@ void fill_header(const Handle(IGESData_IGESModel) & model, const std::string& fi
     header.SetSendName(iges_string(part_name));
     header.SetReceiveName(iges_string(part_name));
     header.SetFileName(iges_string(file_name));
-    header.SetSystemId(text(program_name()));
-    header.SetInterfaceVersion(text(program_name()));
-    header.SetAuthorName(text(program_name())); // OpenCASCADE would put the login name here
-    header.SetCompanyName(text(""));
-    header.SetDate(text(date));
-    header.SetLastChangeDate(text(date));
+    header.SetSystemId(ascii(program_name()));
+    header.SetInterfaceVersion(ascii(program_name()));
+    header.SetAuthorName(ascii(program_name())); // OpenCASCADE would put the login name here
+    header.SetCompanyName(ascii(""));
+    header.SetDate(ascii(date));
+    header.SetLastChangeDate(ascii(date));
     header.SetResolution(1e-6 / millimetres(unit)); // readers take it as their tolerance
     header.SetMaxCoord(largest / millimetres(unit));
     model->SetGlobalSection(header);
@@ -56,7 +55,7 @@ Handle(TCollection_HAsciiString) iges_string(std::string value)
     for (char& c : value)
         if (c < ' ' || c > '~')
             c = '?';
-    return text(value);
+    return ascii(value);
 }
 
 std::string iges_text(const std::function<std::vector<Handle(IGESData_IGESEntity)>()>& entities, double largest_mm,

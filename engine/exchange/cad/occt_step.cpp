@@ -14,16 +14,15 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/exchange/cad/occt_session.h"
+#include "engine/exchange/cad/occt_values.h"
 #include "engine/exchange/provenance.h"
 
 namespace spia {
 namespace {
 
-Handle(TCollection_HAsciiString) text(const std::string& value) { return new TCollection_HAsciiString(value.c_str()); }
-
 Handle(Interface_HArray1OfHAsciiString) one_text(const std::string& value)
 {
-    return new Interface_HArray1OfHAsciiString(1, 1, text(value));
+    return new Interface_HArray1OfHAsciiString(1, 1, ascii(value));
 }
 
 /// OpenCASCADE's name of the unit.
@@ -41,21 +40,21 @@ const char* occt_name(LengthUnit unit)
 void fill_header(const Handle(StepData_StepModel) & model, const std::string& file_name, const std::string& part_name)
 {
     APIHeaderSection_MakeHeader header(model);
-    header.SetName(text(file_name));
-    header.SetTimeStamp(text(time_stamp("%Y-%m-%dT%H:%M:%SZ")));
+    header.SetName(ascii(file_name));
+    header.SetTimeStamp(ascii(time_stamp("%Y-%m-%dT%H:%M:%SZ")));
     header.SetAuthor(one_text(program_name()));
     header.SetOrganization(one_text(""));
-    header.SetOriginatingSystem(text(program_name()));
-    header.SetPreprocessorVersion(text(program_name()));
-    header.SetAuthorisation(text(""));
+    header.SetOriginatingSystem(ascii(program_name()));
+    header.SetPreprocessorVersion(ascii(program_name()));
+    header.SetAuthorisation(ascii(""));
     header.SetDescription(one_text(part_name));
 
     // OpenCASCADE appends the number of products made so far in this process.
     for (int i = 1; i <= model->NbEntities(); ++i)
         if (const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i)); !product.IsNull()) {
-            product->SetId(text(part_name));
-            product->SetName(text(part_name));
-            product->SetDescription(text(""));
+            product->SetId(ascii(part_name));
+            product->SetName(ascii(part_name));
+            product->SetDescription(ascii(""));
         }
 }
 

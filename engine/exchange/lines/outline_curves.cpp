@@ -7,13 +7,13 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/core/angle.h"
 #include "engine/core/small_dense.h"
 
 namespace spia {
 namespace {
 
 using std::numbers::pi;
-constexpr double degree = pi / 180;
 
 /// What counts as an arc.
 struct ArcLimits {
@@ -64,7 +64,7 @@ public:
                 return false;
             turned += angle;
         }
-        return std::abs(std::abs(turned) - 2 * pi) < degree;
+        return std::abs(std::abs(turned) - 2 * pi) < radians_per_degree;
     }
 
     /// The ends of an arc that nearly closes say too little of its centre, and nothing if it does,
@@ -78,7 +78,7 @@ public:
             return;
         }
         const double turn = turn_around(stated.centre, stated.first, stated.edges);
-        constexpr double open = 330 * degree; // its ends are half a radius apart
+        constexpr double open = 330 * radians_per_degree; // its ends are half a radius apart
         int half = stated.edges;
         if (std::abs(turn) > open && stated.edges > 1)
             for (half = 1; half + 1 < stated.edges &&
@@ -322,7 +322,7 @@ Eigen::Vector2d arc_centre(const Eigen::Vector2d& a, const Eigen::Vector2d& b, d
 
 OutlineCurves find_curves(const OutlineLoop& loop, double exact, double tolerance, std::span<const StatedPiece> stated)
 {
-    const ArcLimits sharp{exact, 35 * degree, 3}, loose{tolerance, 20 * degree, 5};
+    const ArcLimits sharp{exact, 35 * radians_per_degree, 3}, loose{tolerance, 20 * radians_per_degree, 5};
     OutlineCurves curves;
     Finder finder(loop);
     const auto as_circle = [&](const Eigen::Vector2d& centre, double radius) {

@@ -21,8 +21,6 @@ namespace {
 using namespace dxf_handle;
 using Kind = OutlinePiece::Kind;
 
-constexpr double degree = std::numbers::pi / 180;
-
 std::string ascii(std::string text)
 {
     for (char& c : text)
@@ -131,7 +129,8 @@ public:
     void about(const DrawnBend& bend)
     {
         dxf_(1001, dxf_application)(1000, "bend")(1000, ascii(bend.name));
-        dxf_(1000, "angle_deg")(1040, bend.angle / degree)(1000, "inner_radius")(1040, bend.inner_radius / mm_);
+        dxf_(1000, "angle_deg")(1040, bend.angle / radians_per_degree)(1000, "inner_radius")(1040,
+                                                                                             bend.inner_radius / mm_);
         if (bend.k)
             dxf_(1000, "k")(1040, *bend.k);
         if (bend.allowance > 0)
@@ -162,11 +161,12 @@ private:
         const double radius = begin.norm(), whole = std::fmod(turn_deg(end) - turn_deg(begin) + 360, 360);
         for (const double quarter : {0., 90., 180., 270.})
             if (std::fmod(quarter - turn_deg(begin) + 360, 360) < whole)
-                box_.extend(centre + radius * Eigen::Vector2d(std::cos(quarter * degree), std::sin(quarter * degree)));
+                box_.extend(centre + radius * Eigen::Vector2d(std::cos(quarter * radians_per_degree),
+                                                              std::sin(quarter * radians_per_degree)));
     }
     static double turn_deg(const Eigen::Vector2d& arm)
     {
-        const double angle = std::atan2(arm[1], arm[0]) / degree;
+        const double angle = std::atan2(arm[1], arm[0]) / radians_per_degree;
         return angle < 0 ? angle + 360 : angle;
     }
     void begin(const char* type, const char* layer)
@@ -263,7 +263,7 @@ std::string few_digits(double value, int decimals)
 
 std::string label(const DrawnBend& bend, double mm)
 {
-    return fmt::format("{} {}%%d R{}{}", bend.up ? "UP" : "DOWN", few_digits(bend.angle / degree, 2),
+    return fmt::format("{} {}%%d R{}{}", bend.up ? "UP" : "DOWN", few_digits(bend.angle / radians_per_degree, 2),
                        few_digits(bend.inner_radius / mm, mm > 1 ? 4 : 3), bend.k ? " K" + few_digits(*bend.k, 4) : "");
 }
 
@@ -322,7 +322,7 @@ void draw_bend(Entities& draw, const DrawnBend& bend, double height, const DxfOp
         const double turn = std::atan2(way[1], way[0]);
         const Eigen::Vector2d up(-std::sin(turn), std::cos(turn));
         const Eigen::Vector2d middle = (longest->col(0) + longest->rightCols<1>()) / 2;
-        draw.text(layer, text, middle + 0.4 * height * up, height, turn / degree);
+        draw.text(layer, text, middle + 0.4 * height * up, height, turn / radians_per_degree);
         draw.about(bend);
     }
     for (const Eigen::Matrix2Xd& line : bend.zone)

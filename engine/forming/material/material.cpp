@@ -11,9 +11,9 @@ namespace spia {
 namespace {
 
 /// Reads numbers of one JSON object and says which key of which file is at fault.
-class Reader {
+class MaterialReader {
 public:
-    Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {}
+    MaterialReader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {}
 
     double number(const char* key) const
     {
@@ -47,12 +47,12 @@ public:
         return result;
     }
 
-    Reader object(const char* key) const
+    MaterialReader object(const char* key) const
     {
         const Json& value = require(key);
         if (!value.is_object())
             fail(key, "is not an object");
-        return Reader(value, where_ + " in \"" + key + "\"");
+        return MaterialReader(value, where_ + " in \"" + key + "\"");
     }
 
     [[noreturn]] void fail(const char* key, const std::string& what) const
@@ -73,7 +73,7 @@ private:
     std::string where_;
 };
 
-Hardening read_hardening(const Reader& in)
+Hardening read_hardening(const MaterialReader& in)
 {
     const std::string law = in.text("law");
     const auto swift = [&] { return Swift{in.number("K_MPa"), in.number("e0"), in.number("n")}; };
@@ -96,7 +96,7 @@ Hardening read_hardening(const Reader& in)
             fmt::format("is \"{}\"; known are swift, hollomon, voce, ludwik, hockett_sherby, swift_voce, table", law));
 }
 
-GradeLimit read_limit(const Reader& in)
+GradeLimit read_limit(const MaterialReader& in)
 {
     GradeLimit limit;
     if (in.has("n"))
@@ -133,7 +133,7 @@ static Material material_of(const Json& json, const std::string& where)
 {
     if (!json.is_object())
         throw InputError(fmt::format("{} is no JSON object; see assets/materials/README.md for the form", where));
-    const Reader in(json, where);
+    const MaterialReader in(json, where);
     Material material;
     material.name = in.text("name");
     material.young_MPa = in.number("young_MPa");

@@ -26,9 +26,9 @@ struct Line {
     double slope, foot; ///< MPa; the strain where the stress is zero
 };
 
-class Reader {
+class TestReader {
 public:
-    Reader(const TwoColumns& table, const std::string& name, const TensileOptions& options)
+    TestReader(const TwoColumns& table, const std::string& name, const TensileOptions& options)
         : table_(table), name_(name), options_(options)
     {
     }
@@ -279,7 +279,7 @@ private:
 
 TensileTest tensile_test(const TwoColumns& table, const std::string& name, const TensileOptions& options)
 {
-    return Reader(table, name, options).test();
+    return TestReader(table, name, options).test();
 }
 
 } // namespace spia

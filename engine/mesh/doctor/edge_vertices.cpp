@@ -13,29 +13,29 @@
 namespace spia {
 namespace {
 
-using Edge = std::array<int, 2>;
+using SoupEdge = std::array<int, 2>;
 
-Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+SoupEdge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// An open edge as its polygon has it.
-struct Side {
+struct SoupSide {
     int polygon, corner;
 };
 
-int end_of(const PolygonSoup& soup, const std::vector<int>& same_as, const Side& side, int which)
+int end_of(const PolygonSoup& soup, const std::vector<int>& same_as, const SoupSide& side, int which)
 {
     const auto corners = soup.polygon(side.polygon);
     return same_as[size_t(corners[size_t(side.corner + which) % corners.size()])];
 }
 
 /// In the order of polygons and corners.
-std::vector<Side> open_sides(const PolygonSoup& soup, const std::vector<int>& same_as)
+std::vector<SoupSide> open_sides(const PolygonSoup& soup, const std::vector<int>& same_as)
 {
-    const std::vector<Edge> open = open_edges(soup, same_as);
-    std::vector<Side> sides;
+    const std::vector<SoupEdge> open = open_edges(soup, same_as);
+    std::vector<SoupSide> sides;
     for (int p = 0; p < soup.polygons(); ++p)
         for (int k = 0; k < int(soup.polygon(p).size()); ++k) {
-            const Side side{p, k};
+            const SoupSide side{p, k};
             if (std::binary_search(open.begin(), open.end(),
                                    edge_of(end_of(soup, same_as, side, 0), end_of(soup, same_as, side, 1))))
                 sides.push_back(side);
@@ -44,7 +44,7 @@ std::vector<Side> open_sides(const PolygonSoup& soup, const std::vector<int>& sa
 }
 
 /// Boxes around edges, as triangles without area.
-BoxTree tree_of(const PolygonSoup& soup, const std::vector<int>& same_as, const std::vector<Side>& sides)
+BoxTree tree_of(const PolygonSoup& soup, const std::vector<int>& same_as, const std::vector<SoupSide>& sides)
 {
     TriMesh mesh;
     mesh.position.resize(3, soup.vertices());
@@ -125,7 +125,7 @@ bool can_be_split(const PolygonSoup& soup, const std::vector<int>& corners)
 
 std::vector<std::array<int, 2>> open_edges(const PolygonSoup& soup, const std::vector<int>& same_as)
 {
-    std::vector<Edge> edges;
+    std::vector<SoupEdge> edges;
     for (int p = 0; p < soup.polygons(); ++p) {
         const auto corners = soup.polygon(p);
         for (size_t k = 0; k < corners.size(); ++k) {
@@ -135,7 +135,7 @@ std::vector<std::array<int, 2>> open_edges(const PolygonSoup& soup, const std::v
         }
     }
     std::sort(edges.begin(), edges.end());
-    std::vector<Edge> open;
+    std::vector<SoupEdge> open;
     for (size_t i = 0; i < edges.size(); ++i)
         if ((i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1]))
             open.push_back(edges[i]);
@@ -144,13 +144,13 @@ std::vector<std::array<int, 2>> open_edges(const PolygonSoup& soup, const std::v
 
 std::vector<EdgeVertex> edge_vertices(const PolygonSoup& soup, const std::vector<int>& same_as, double tolerance)
 {
-    const std::vector<Side> sides = open_sides(soup, same_as);
+    const std::vector<SoupSide> sides = open_sides(soup, same_as);
     std::vector<EdgeVertex> result;
     if (sides.empty())
         return result;
     const BoxTree tree = tree_of(soup, same_as, sides);
     std::vector<int> vertices;
-    for (const Side& side : sides)
+    for (const SoupSide& side : sides)
         for (const int which : {0, 1})
             vertices.push_back(end_of(soup, same_as, side, which));
     std::sort(vertices.begin(), vertices.end());
@@ -160,7 +160,7 @@ std::vector<EdgeVertex> edge_vertices(const PolygonSoup& soup, const std::vector
         std::optional<EdgeVertex> best;
         const auto within = [&] { return best ? best->gap : tolerance; };
         visit_near(tree, point, within, [&](int i) {
-            const Side& side = sides[size_t(tree.face[size_t(i)])];
+            const SoupSide& side = sides[size_t(tree.face[size_t(i)])];
             const Eigen::Vector3d a = tree.triangle[size_t(i)].col(0), along = tree.triangle[size_t(i)].col(1) - a;
             const double t = nearest_share(point, a, along);
             const double gap = (point - a - t * along).norm(), length = along.norm();
@@ -187,8 +187,8 @@ PolygonSoup with_corners(const PolygonSoup& soup, const std::vector<int>& same_a
         const auto next = on.lower_bound({polygon + 1, 0});
         edge = can_be_split(soup, corners_with(soup, polygon, on)) ? next : on.erase(edge, next);
     }
-    std::map<Edge, int> parts; // how many open edges or parts of them lie there
-    const auto each_part = [&](const Side& side, const auto& visit) {
+    std::map<SoupEdge, int> parts; // how many open edges or parts of them lie there
+    const auto each_part = [&](const SoupSide& side, const auto& visit) {
         int before = end_of(soup, same_as, side, 0);
         if (const auto found = on.find({side.polygon, side.corner}); found != on.end())
             for (const EdgeVertex& v : found->second) {
@@ -197,12 +197,12 @@ PolygonSoup with_corners(const PolygonSoup& soup, const std::vector<int>& same_a
             }
         visit(edge_of(before, end_of(soup, same_as, side, 1)));
     };
-    for (const Side& side : open_sides(soup, same_as))
-        each_part(side, [&](const Edge& part) { ++parts[part]; });
+    for (const SoupSide& side : open_sides(soup, same_as))
+        each_part(side, [&](const SoupEdge& part) { ++parts[part]; });
     std::erase_if(on, [&](const auto& edge) {
         bool meets = false;
-        each_part(Side{edge.first.first, edge.first.second},
-                  [&](const Edge& part) { meets = meets || parts.at(part) > 1; });
+        each_part(SoupSide{edge.first.first, edge.first.second},
+                  [&](const SoupEdge& part) { meets = meets || parts.at(part) > 1; });
         return !meets;
     });
     taken.clear();

@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "engine/mesh/doctor/least_triangulation.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 
@@ -14,64 +14,21 @@ namespace {
 
 using Edge = std::pair<int, int>;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 double area_of(const TriMesh& mesh, int a, int b, int c)
 {
     const Eigen::Vector3d p = mesh.position.col(a);
     return (mesh.position.col(b) - p).cross(mesh.position.col(c) - p).norm() / 2;
 }
 
-/// Triangles between the vertices of a closed row that have the least area together.
-class LeastCover {
-public:
-    /// @param used  edges of the surface from the smaller vertex to the larger: no inner edge of the cover may be one
-    LeastCover(const TriMesh& mesh, const std::vector<int>& row, const std::map<Edge, int>& used)
-        : row_(row), count_(row.size()), best_(count_ * count_, 0), middle_(count_ * count_, 0)
-    {
-        for (size_t span = 2; span < count_; ++span)
-            for (size_t i = 0; i + span < count_; ++i) {
-                const size_t j = i + span;
-                double& least = best_[i * count_ + j] = infinite;
-                if (span + 1 < count_ && used.contains(std::minmax(row[i], row[j])))
-                    continue;
-                for (size_t k = i + 1; k < j; ++k) {
-                    const double with =
-                        best_[i * count_ + k] + best_[k * count_ + j] + area_of(mesh, row[i], row[k], row[j]);
-                    if (with < least) {
-                        least = with;
-                        middle_[i * count_ + j] = k;
-                    }
-                }
-            }
-    }
-
-    double area() const { return best_[count_ - 1]; } ///< mm2; infinite: there is none
-
-    /// In the direction of the row.
-    std::vector<std::array<int, 3>> triangles() const
-    {
-        std::vector<std::array<int, 3>> result;
-        std::vector<std::pair<size_t, size_t>> open{{0, count_ - 1}};
-        while (!open.empty()) {
-            const auto [i, j] = open.back();
-            open.pop_back();
-            if (j < i + 2)
-                continue;
-            const size_t k = middle_[i * count_ + j];
-            result.push_back({row_[i], row_[k], row_[j]});
-            open.emplace_back(i, k);
-            open.emplace_back(k, j);
-        }
-        return result;
-    }
-
-private:
-    const std::vector<int>& row_;
-    size_t count_;
-    std::vector<double> best_;   ///< mm2, from a vertex to a later one
-    std::vector<size_t> middle_; ///< the third vertex of the triangle there
-};
+/// Triangles between the vertices of a closed row that have the least area together; the cost is that area.
+/// @param used  edges of the surface from the smaller vertex to the larger: no inner edge of the cover may be one
+Triangulation least_cover(const TriMesh& mesh, const std::vector<int>& row, const std::map<Edge, int>& used)
+{
+    return least_triangulation(
+        row.size(), 0, [&](size_t i, size_t j) { return !used.contains(std::minmax(row[i], row[j])); },
+        [&](size_t i, size_t k, size_t j) { return area_of(mesh, row[i], row[k], row[j]); },
+        [](double a, double b, double c) { return a + b + c; });
+}
 
 /// Every edge of the surface, from its smaller vertex, with a face beside it.
 std::map<Edge, int> edges_of(const TriMesh& surface)
@@ -106,17 +63,18 @@ std::optional<CoveredOpenings> cover_small_openings(const TriMesh& surface)
         if (loop.size() > most)
             return std::nullopt;
         const std::vector<int> row(loop.rbegin(), loop.rend()); // the surface is on the left of the loop
-        const LeastCover least(surface, row, used);
-        result.width.push_back(2 * least.area() / perimeter(surface, loop));
+        const Triangulation least = least_cover(surface, row, used);
+        result.width.push_back(2 * least.cost / perimeter(surface, loop));
         if (loop.size() > 3) // a triangle is one that is missing, however large
-            covered += least.area();
+            covered += least.cost;
         const bool wide = loop.size() > 3 && result.width.back() > slit * bounding_diagonal(surface);
         if (covered > of_surface * area(surface) || (wide && loop.size() > few))
             return std::nullopt;
         result.surely &= !wide;
-        for (const auto& triangle : least.triangles()) {
+        for (const auto& triangle : least.triangles) {
             result.mesh.triangle.conservativeResize(3, result.mesh.triangles() + 1);
-            result.mesh.triangle.rightCols(1) << triangle[0], triangle[1], triangle[2];
+            for (int k = 0; k < 3; ++k)
+                result.mesh.triangle(k, result.mesh.triangles() - 1) = row[size_t(triangle[size_t(k)])];
             result.beside.push_back(used.at(std::minmax(loop[0], loop[1])));
         }
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mesh/doctor/least_triangulation.h"
+
 namespace spia {
 namespace {
 
@@ -123,42 +125,17 @@ Triangles clip_ears(const std::vector<Vector2d>& p)
     return triangles;
 }
 
-/// Of all ways to divide a polygon that does not cross itself, the one whose least angle is largest
-/// (G. Klincsek, Minimal triangulations of polygonal domains, 1980). Triangles none of which is
-/// turned over do not overlap then.
+/// Of a polygon that does not cross itself, those whose least angle is largest. Triangles none of which is turned over do not
+/// overlap then.
 Triangles best_triangles(const std::vector<Vector2d>& p)
 {
-    const size_t n = p.size();
-    std::vector<double> least(n * n, 1); // of the corners i to j with their chord
-    std::vector<size_t> third(n * n, 0);
-    for (size_t span = 2; span < n; ++span)
-        for (size_t i = 0; i + span < n; ++i) {
-            const size_t j = i + span;
-            double best = -2;
-            for (size_t k = i + 1; k < j; ++k) {
-                const double value = std::min({least[i * n + k], least[k * n + j], quality(p[i], p[k], p[j])});
-                if (value > best) {
-                    best = value;
-                    third[i * n + j] = k;
-                }
-            }
-            least[i * n + j] = best;
-        }
-    if (!(least[n - 1] > flat))
-        return {};
-    Triangles triangles;
-    std::vector<std::array<size_t, 2>> open{{0, n - 1}};
-    while (!open.empty()) {
-        const auto [i, j] = open.back();
-        open.pop_back();
-        if (j < i + 2)
-            continue;
-        const size_t k = third[i * n + j];
-        triangles.push_back({int(i), int(k), int(j)});
-        open.push_back({i, k});
-        open.push_back({k, j});
-    }
-    return triangles;
+    const Triangulation best = least_triangulation(
+        p.size(), -1, [](size_t, size_t) { return true; },
+        [&](size_t i, size_t k, size_t j) { return -quality(p[i], p[k], p[j]); },
+        [](double a, double b, double c) {
+            return std::max({a, b, c});
+        });
+    return -best.cost > flat ? best.triangles : Triangles{};
 }
 
 } // namespace

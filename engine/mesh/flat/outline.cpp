@@ -9,7 +9,7 @@
 namespace spia {
 namespace {
 
-struct Edge {
+struct OutlineEdge {
     int a, b;             ///< vertices
     int place_a, place_b; ///< the first vertices at their places
     int before;           ///< the vertex before a on the loop
@@ -63,7 +63,7 @@ struct Passage {
 };
 
 /// Whether edges cross, or lie on each other with the sheet on the same side.
-bool meet(const Edge& e, const Edge& f, const Eigen::Matrix2Xd& x)
+bool meet(const OutlineEdge& e, const OutlineEdge& f, const Eigen::Matrix2Xd& x)
 {
     if (e.place_a == f.place_b && e.place_b == f.place_a)
         return false; // the lips of a slit, a loop of two edges
@@ -88,7 +88,7 @@ bool meet(const Edge& e, const Edge& f, const Eigen::Matrix2Xd& x)
         return true;
     // A vertex on the other edge: the way through it crosses, or only touches. Seen from the edge
     // that begins there.
-    const auto crossed_at = [&](const Edge& through, const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    const auto crossed_at = [&](const OutlineEdge& through, const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
         const int comes = orient2d(p, q, x.col(through.before)), goes = orient2d(p, q, x.col(through.b));
         return comes * goes < 0 || comes == 0 || goes == 0;
     };
@@ -107,7 +107,7 @@ std::vector<OutlineCrossing> outline_crossings(const std::vector<std::vector<int
                                                const Eigen::Matrix2Xd& position)
 {
     const std::vector<int> place = places(loops, position);
-    std::vector<Edge> edges;
+    std::vector<OutlineEdge> edges;
     for (const auto& loop : loops) {
         const size_t n = loop.size();
         for (size_t i = 0; i < n; ++i) {
@@ -117,12 +117,13 @@ std::vector<OutlineCrossing> outline_crossings(const std::vector<std::vector<int
         }
     }
     // Sweep from left to right: only edges that overlap in x are compared.
-    std::stable_sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.left < f.left; });
-    std::vector<const Edge*> open;
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const OutlineEdge& e, const OutlineEdge& f) { return e.left < f.left; });
+    std::vector<const OutlineEdge*> open;
     std::vector<OutlineCrossing> found;
-    for (const Edge& edge : edges) {
-        std::erase_if(open, [&](const Edge* other) { return other->right < edge.left; });
-        for (const Edge* other : open)
+    for (const OutlineEdge& edge : edges) {
+        std::erase_if(open, [&](const OutlineEdge* other) { return other->right < edge.left; });
+        for (const OutlineEdge* other : open)
             if (meet(edge, *other, position))
                 found.push_back({{other->a, other->b}, {edge.a, edge.b}});
         open.push_back(&edge);

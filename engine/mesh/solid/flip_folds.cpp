@@ -12,7 +12,7 @@
 namespace spia {
 namespace {
 
-using Triangles = std::array<std::array<int, 3>, 2>;
+using TwoTriangles = std::array<std::array<int, 3>, 2>;
 
 /// Triangles as the surface shows them that they are chords of.
 class Seen {
@@ -61,7 +61,7 @@ private:
 /// Two triangles at an edge, which takes the other diagonal of both.
 struct Flip {
     int one = -1, other = -1;
-    Triangles after{};
+    TwoTriangles after{};
     double gain = 0; ///< mm2, of the least upright triangle of the middle surface
 };
 
@@ -121,7 +121,7 @@ private:
         return options_.unit[size_t(middle_.source_face[size_t(f)])] ==
                options_.unit[size_t(middle_.source_face[size_t(g)])];
     }
-    double least(int f, int g, const Eigen::Matrix3Xd& position, const Triangles& triangles) const
+    double least(int f, int g, const Eigen::Matrix3Xd& position, const TwoTriangles& triangles) const
     {
         return std::min(seen_.area(f, g, position, triangles[0]), seen_.area(f, g, position, triangles[1]));
     }

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <map>
-#include <numbers>
 
+#include "engine/core/angle.h"
 #include "engine/core/text.h"
 
 namespace spia {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 } // namespace
 
@@ -37,8 +35,8 @@ std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& tabl
         doubts.push_back(fmt::format(
             "bend {}{} (R {:.4g} mm, {:.4g} degrees, near {:.4g}, {:.4g}, {:.4g} mm) is not laid with its allowance: {}; {}",
             bends.front() + 1, bends.size() > 1 ? fmt::format(", the first of {},", bends.size()) : "",
-            first.inner_radius, first.angle * degrees, first.place[0], first.place[1], first.place[2], why.first,
-            why.second));
+            first.inner_radius, first.angle * degrees_per_radian, first.place[0], first.place[1], first.place[2],
+            why.first, why.second));
     }
     if (k_is_given)
         doubts.insert(doubts.end(), table.notes.begin(), table.notes.end());
@@ -48,11 +46,11 @@ std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& tabl
 std::string describe(const SheetBend& bend)
 {
     if (bend.sharp)
-        return fmt::format("sharp, {:.5g} degrees {}, allowance {:.5g} mm, deduction {:.5g} mm", bend.angle * degrees,
-                           bend.up ? "up" : "down", bend.allowance, bend.deduction);
+        return fmt::format("sharp, {:.5g} degrees {}, allowance {:.5g} mm, deduction {:.5g} mm",
+                           bend.angle * degrees_per_radian, bend.up ? "up" : "down", bend.allowance, bend.deduction);
     return fmt::format("R {:.5g} mm, {:.5g} degrees {}, K {:.4g}, allowance {:.5g} mm, deduction {:.5g} mm{}",
-                       bend.inner_radius, bend.angle * degrees, bend.up ? "up" : "down", bend.k, bend.allowance,
-                       bend.deduction, bend.laid ? "" : " (not applied)");
+                       bend.inner_radius, bend.angle * degrees_per_radian, bend.up ? "up" : "down", bend.k,
+                       bend.allowance, bend.deduction, bend.laid ? "" : " (not applied)");
 }
 
 std::vector<std::string> describe(const BendTable& table)

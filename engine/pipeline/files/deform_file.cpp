@@ -10,7 +10,7 @@
 namespace spia {
 namespace {
 
-constexpr const char* schema = "spia.deformation/1";
+constexpr const char* deformation_schema = "spia.deformation/1";
 
 template <size_t count> std::array<int, count> numbers(const Json& json, const Place& place, int least, int greatest)
 {
@@ -93,8 +93,8 @@ DeformationWish read_deformation(const std::filesystem::path& file)
     const std::string name = file.string();
     const Place top(name);
     members::require_object(json, top, {"schema", "moves", "lattice"});
-    if (members::text_in(json, top, "schema", "") != schema)
-        top.member("schema").fail(fmt::format("must be \"{}\"", schema));
+    if (members::text_in(json, top, "schema", "") != deformation_schema)
+        top.member("schema").fail(fmt::format("must be \"{}\"", deformation_schema));
     DeformationWish wish;
     members::each_of(json, top, "moves", [&](const Json& move, const Place& at, const std::string&) {
         wish.moves.push_back(control_move(move, at));
@@ -118,7 +118,7 @@ Deformation deformation_of(const DeformationWish& wish, const MultiPatch& surfac
 
 void write_deformation(const std::filesystem::path& file, const Deformation& deformation)
 {
-    Json json = {{"schema", schema}, {"moves", Json::array()}};
+    Json json = {{"schema", deformation_schema}, {"moves", Json::array()}};
     for (const ControlMove& move : deformation.moves)
         json["moves"].push_back(
             {{"patch", move.patch}, {"at", Json::array({move.i, move.j})}, {"by", vector_json(move.move)}});

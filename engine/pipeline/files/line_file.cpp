@@ -12,7 +12,7 @@ namespace spia {
 namespace {
 
 using namespace members;
-constexpr std::string_view schema = "spia.lines/1";
+constexpr std::string_view lines_schema = "spia.lines/1";
 
 /// Two numbers lie in the plane z = 0.
 Eigen::Vector3d point(const Json& json, const Place& place)
@@ -32,8 +32,8 @@ std::vector<SheetLine> lines_of_json(const std::filesystem::path& file, LengthUn
     const std::string name = file.string();
     const Place top(name);
     require_object(json, top, {"schema", "unit", "lines"});
-    if (text_in(json, top, "schema", std::string(schema)) != schema)
-        top.member("schema").fail(fmt::format("must be \"{}\"", schema));
+    if (text_in(json, top, "schema", std::string(lines_schema)) != lines_schema)
+        top.member("schema").fail(fmt::format("must be \"{}\"", lines_schema));
     const Json* unit = find(json, top, "unit", false);
     const double mm = millimetres(unit ? length_unit(text(*unit, top.member("unit"))) : otherwise);
     std::vector<SheetLine> lines;
@@ -94,8 +94,8 @@ std::string lines_json(std::span<const SheetLine> lines)
             points.push_back({p[0], p[1], p[2]});
         list.push_back({{"name", line.name}, {"closed", line.closed}, {"points", points}});
     }
-    return Json{{"schema", schema}, {"unit", "mm"}, {"lines", list}}.dump(-1, ' ', false,
-                                                                          Json::error_handler_t::replace) +
+    return Json{{"schema", lines_schema}, {"unit", "mm"}, {"lines", list}}.dump(-1, ' ', false,
+                                                                                Json::error_handler_t::replace) +
            "\n";
 }
 

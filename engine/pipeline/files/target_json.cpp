@@ -1,13 +1,12 @@
 #include "engine/pipeline/files/target_json.h"
 
 #include <Eigen/Geometry>
-#include <numbers>
 
+#include "engine/core/angle.h"
 #include "engine/core/vector_json.h"
 
 namespace spia {
 namespace {
-constexpr double degrees = 180 / std::numbers::pi;
 }
 
 Json target_json(const TargetSurface& face)
@@ -29,7 +28,7 @@ Json target_json(const TargetSurface& face)
     return {{"cone",
              {{"apex", vector_json(cone.apex)},
               {"axis", vector_json(cone.axis)},
-              {"half_angle_deg", cone.half_angle * degrees}}}};
+              {"half_angle_deg", cone.half_angle * degrees_per_radian}}}};
 }
 
 } // namespace spia

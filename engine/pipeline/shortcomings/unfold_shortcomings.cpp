@@ -1,16 +1,14 @@
 #include "engine/pipeline/shortcomings/unfold_shortcomings.h"
 
 #include <fmt/core.h>
-#include <numbers>
 
+#include "engine/core/angle.h"
 #include "engine/core/place_text.h"
 #include "engine/core/text.h"
 #include "engine/mesh/doctor/doctor.h"
 
 namespace spia {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 } // namespace
 
@@ -27,7 +25,7 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, con
         if (state.on && creased(*state.on, diagonal))
             poorer.push_back(fmt::format(
                 "step \"{}\" creases the sheet at its hinge: the target is offset by {:.3g} mm and {:.1f} deg from the fixed faces",
-                state.name, state.on->distance_mm, state.on->angle * degrees));
+                state.name, state.on->distance_mm, state.on->angle * degrees_per_radian));
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
             poorer.push_back(fmt::format(

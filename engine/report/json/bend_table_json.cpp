@@ -1,13 +1,11 @@
 #include "engine/report/json/bend_table_json.h"
 
-#include <numbers>
-
+#include "engine/core/angle.h"
 #include "engine/core/vector_json.h"
 #include "engine/pipeline/blank/bend_report.h"
 
 namespace spia {
 namespace {
-constexpr double degrees = 180 / std::numbers::pi;
 }
 
 Json bend_table_json(const BendTable& table)
@@ -18,7 +16,7 @@ Json bend_table_json(const BendTable& table)
         for (const BlankSegment& piece : bend.line)
             lines.push_back({piece.from[0], piece.from[1], piece.to[0], piece.to[1]});
         bends.push_back({{"inner_radius_mm", bend.inner_radius},
-                         {"angle_deg", bend.angle * degrees},
+                         {"angle_deg", bend.angle * degrees_per_radian},
                          {"direction", bend.up ? "up" : "down"},
                          {"k_factor", bend.k},
                          {"allowance_mm", bend.allowance},

@@ -1,7 +1,6 @@
 #include "engine/report/json/unfold_report_json.h"
 
-#include <numbers>
-
+#include "engine/core/angle.h"
 #include "engine/core/vector_json.h"
 #include "engine/mesh/topology.h"
 #include "engine/options/command_line_json.h"
@@ -14,8 +13,6 @@
 namespace spia {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
-
 Json bends_json(const BendMap& map)
 {
     Json list = Json::array();
@@ -26,7 +23,7 @@ Json bends_json(const BendMap& map)
             between.push_back(map.name(bend.b));
         list.push_back({{"name", map.name(int(map.regions.size() + k))},
                         {"between", std::move(between)},
-                        {"angle_deg", bend.angle * degrees},
+                        {"angle_deg", bend.angle * degrees_per_radian},
                         {"radius_mm", bend.radius},
                         {"length_mm", bend.length},
                         {"faces", bend.faces},
@@ -71,7 +68,7 @@ Json state_json(const UnfoldState& state)
     if (state.on) {
         json["target"] = target_json(state.on->face);
         json["distance_to_held_mm"] = state.on->distance_mm;
-        json["angle_to_fixed_deg"] = state.on->angle * degrees;
+        json["angle_to_fixed_deg"] = state.on->angle * degrees_per_radian;
         json["reach_mm"] = state.reach.farthest_mm;
         json["faces_without_room"] = state.reach.without_room;
     }

@@ -19,7 +19,7 @@
 namespace spia {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180, middle = 0.5;
+constexpr double degree = std::numbers::pi / 180, k_of_middle = 0.5;
 
 using Laid = Eigen::Matrix<double, 2, 3>;
 
@@ -92,14 +92,14 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
         bend.why_not = std::move(why);
         bend.way_out = std::move(way_out);
     };
-    double k = middle;
+    double k = k_of_middle;
     if (inner < -rounding * t)
         keeps(fmt::format("the sheet of {:.4g} mm is thicker there than the radius allows", t),
               "check the thickness of the sheet");
     else if (layers.mesh_at == 0 && layers.k)
         k = layers.k->at(bend.inner_radius / t);
     if (layers.mesh_at != 0)
-        k = middle + side * layers.mesh_at / t;
+        k = k_of_middle + side * layers.mesh_at / t;
     else if (bend.why_not.empty()) {
         constexpr double nothing = 0.02; // of the thickness: triangles shorter than that are none
         const double laid = bend.inner_radius + k * t;
@@ -268,7 +268,7 @@ std::string describe_surface(const BendTable& table, const SheetLayers& layers)
     constexpr double digits = 5e-5;
     const std::string of =
         laid == int(table.bends.size()) ? "" : fmt::format(" ({} of {} bends)", laid, table.bends.size());
-    if (laid == 0 || std::max(std::abs(least - middle), std::abs(most - middle)) < 1e-9)
+    if (laid == 0 || std::max(std::abs(least - k_of_middle), std::abs(most - k_of_middle)) < 1e-9)
         return "middle surface, K 0.5";
     if (most - least < digits)
         return fmt::format("neutral fibre, K {:.4g}{}", most, of);
@@ -310,7 +310,7 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
                      [](const Candidate& a, const Candidate& b) { return a.zone.face.front() < b.zone.face.front(); });
     for (Candidate& each : candidates) {
         if (!each.bend.laid && layers.mesh_at == 0)
-            set_k(each.bend, middle, layers.thickness);
+            set_k(each.bend, k_of_middle, layers.thickness);
         if (each.bend.laid)
             for (size_t i = 0; i < each.corner.size(); ++i)
                 laid.emplace(each.zone.face[i], each.corner[i]);
@@ -342,7 +342,7 @@ void keep_triangles(NeutralFibre& fibre, const std::string& why, const std::stri
         bend.laid = false;
         bend.why_not = why;
         bend.way_out = way_out;
-        set_k(bend, table.of_middle ? middle : bend.k, table.thickness);
+        set_k(bend, table.of_middle ? k_of_middle : bend.k, table.thickness);
         kept.push_back(int(b) + 1);
     }
     fibre.laid = {};

@@ -24,14 +24,14 @@ std::vector<Role> roles(int faces, const std::vector<int>& fixed, const std::vec
 }
 
 /// Per vertex a face of each role around it; -1: none.
-struct Around {
+struct RolesAround {
     std::array<int, 3> face{-1, -1, -1};
     int of(Role role) const { return face[size_t(role)]; }
 };
 
-std::vector<Around> around_vertices(const TriMesh& part, const std::vector<Role>& role)
+std::vector<RolesAround> around_vertices(const TriMesh& part, const std::vector<Role>& role)
 {
-    std::vector<Around> around(size_t(part.vertices()));
+    std::vector<RolesAround> around(size_t(part.vertices()));
     for (int f = part.triangles() - 1; f >= 0; --f) // the first face of a role is the one that is
                                                     // named
         for (const int v : part.triangle.col(f))
@@ -46,11 +46,11 @@ std::vector<Around> around_vertices(const TriMesh& part, const std::vector<Role>
                                  freed, other));
 }
 
-void require_free_borders(const TriMesh& part, const std::vector<int>& freed, const std::vector<Around>& around)
+void require_free_borders(const TriMesh& part, const std::vector<int>& freed, const std::vector<RolesAround>& around)
 {
     for (const int f : freed)
         for (const int v : part.triangle.col(f))
-            if (const Around& a = around[size_t(v)]; a.of(Role::other) >= 0 && a.of(Role::fixed) < 0)
+            if (const RolesAround& a = around[size_t(v)]; a.of(Role::other) >= 0 && a.of(Role::fixed) < 0)
                 refuse_joint(f, a.of(Role::other));
 }
 
@@ -67,7 +67,7 @@ void require_sheet(const FreedPiece& piece)
                                      piece.face[0], type.genus == 1 ? "a handle" : "handles", type.genus));
 }
 
-void number_vertices(const TriMesh& part, const std::vector<Around>& around, FreedPiece& piece)
+void number_vertices(const TriMesh& part, const std::vector<RolesAround>& around, FreedPiece& piece)
 {
     const Eigen::Matrix3Xi triangles = part.triangle(Eigen::all, piece.face);
     piece.vertex.assign(triangles.data(), triangles.data() + triangles.size());
@@ -87,7 +87,7 @@ void number_vertices(const TriMesh& part, const std::vector<Around>& around, Fre
 std::vector<FreedPiece> freed_pieces(const TriMesh& part, const std::vector<int>& fixed, const std::vector<int>& freed)
 {
     const std::vector<Role> role = roles(part.triangles(), fixed, freed);
-    const std::vector<Around> around = around_vertices(part, role);
+    const std::vector<RolesAround> around = around_vertices(part, role);
     require_free_borders(part, freed, around);
 
     const std::vector<EdgeUse> uses = edge_uses(part.triangle);

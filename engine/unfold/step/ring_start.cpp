@@ -3,15 +3,13 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/core/angle.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// Which vertices lie on edges that go around and are not held.
 std::vector<char> far_edges(const FreedPiece& piece, const Eigen::VectorXd& angle)
@@ -23,10 +21,10 @@ std::vector<char> far_edges(const FreedPiece& piece, const Eigen::VectorXd& angl
         double around = 0;
         bool free = true;
         for (size_t k = 0; k < loop.size(); ++k) {
-            around += std::remainder(angle[loop[(k + 1) % loop.size()]] - angle[loop[k]], turn);
+            around += std::remainder(angle[loop[(k + 1) % loop.size()]] - angle[loop[k]], full_turn);
             free &= !held[size_t(loop[k])];
         }
-        if (free && std::abs(around) > turn / 2)
+        if (free && std::abs(around) > full_turn / 2)
             for (const int v : loop)
                 out[size_t(v)] = 1;
     }
@@ -83,7 +81,7 @@ Eigen::Matrix2Xd ring_start(const FreedPiece& piece, const Eigen::Matrix3Xd& sta
     for (size_t e = 0; e < edges.size(); ++e) {
         const auto [a, b] = edges[e];
         weight[Eigen::Index(e)] = 1 / (piece.mesh.position.col(a) - piece.mesh.position.col(b)).norm();
-        jump[Eigen::Index(e)] = std::remainder(angle[b] - angle[a], turn) - (angle[b] - angle[a]);
+        jump[Eigen::Index(e)] = std::remainder(angle[b] - angle[a], full_turn) - (angle[b] - angle[a]);
     }
     std::vector<char> held(size_t(count), 0);
     for (const int v : piece.held) {

@@ -39,17 +39,17 @@ Matrix16d bending()
     return out;
 }
 
-struct Region {
+struct HeightRegion {
     std::vector<int> vertex;
     Eigen::VectorXd weight; ///< of each vertex: its share of the area
     HeightFace plane;       ///< no spline yet
     bool seen_whole;
 };
 
-Region region_of(const TriMesh& part, const std::vector<int>& faces)
+HeightRegion height_region_of(const TriMesh& part, const std::vector<int>& faces)
 {
     constexpr double steepest = 75 * std::numbers::pi / 180;
-    Region region;
+    HeightRegion region;
     Eigen::VectorXd share = Eigen::VectorXd::Zero(part.vertices());
     Eigen::Matrix3Xd area(3, Eigen::Index(faces.size()));
     for (size_t k = 0; k < faces.size(); ++k) {
@@ -87,7 +87,7 @@ std::optional<TargetFit> fit_height(const TriMesh& part, const std::vector<int>&
     // beside what the knots do not resolve, and goes on from there the wrong way: with 1e-12 and 32
     // cells by 13 degrees beside a fender's feature line.
     constexpr double cells_along = 64, bending_share = 1e-10;
-    const Region region = region_of(part, faces);
+    const HeightRegion region = height_region_of(part, faces);
     if (!region.seen_whole)
         return std::nullopt;
     HeightFace face = region.plane;

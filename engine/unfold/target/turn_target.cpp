@@ -1,17 +1,15 @@
 #include "engine/unfold/target/turn_target.h"
+#include "engine/core/angle.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace spia {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
 /// Where a round face begins to count its angles.
-struct Around {
+struct FaceAround {
     const Eigen::Vector3d &origin, &axis;
     Eigen::Vector3d& towards;
 
@@ -32,9 +30,9 @@ std::optional<double> middle_of_gap(std::vector<Arc> arcs)
     std::sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) { return a.from < b.from; });
     double reached = 0, widest = 0, middle = 0;
     for (const Arc& arc : arcs) // what the last arcs cover of the next turn
-        reached = std::max(reached, arc.to - turn);
+        reached = std::max(reached, arc.to - full_turn);
     for (size_t k = 0; k <= arcs.size(); ++k) {
-        const double next = k < arcs.size() ? arcs[k].from : arcs[0].from + turn;
+        const double next = k < arcs.size() ? arcs[k].from : arcs[0].from + full_turn;
         if (k > 0 && next - reached > widest) {
             widest = next - reached;
             middle = (next + reached) / 2;
@@ -46,7 +44,7 @@ std::optional<double> middle_of_gap(std::vector<Arc> arcs)
     return widest > least ? std::optional(middle) : std::nullopt;
 }
 
-bool turn_to(const Around& face, const Eigen::Matrix3Xd& point, const std::vector<std::array<int, 2>>& edges)
+bool turn_to(const FaceAround& face, const Eigen::Matrix3Xd& point, const std::vector<std::array<int, 2>>& edges)
 {
     Eigen::VectorXd angle(point.cols());
     for (Eigen::Index v = 0; v < point.cols(); ++v)
@@ -69,7 +67,7 @@ std::optional<std::vector<int>> turns_along(const Eigen::VectorXd& angle, const 
         beside[size_t(b)].push_back(a);
     }
     const auto over = [&](int a, int b) { // turns that the short way from a to b adds
-        return int(std::lround((std::remainder(angle[b] - angle[a], turn) - (angle[b] - angle[a])) / turn));
+        return int(std::lround((std::remainder(angle[b] - angle[a], full_turn) - (angle[b] - angle[a])) / full_turn));
     };
     std::vector<int> turns(beside.size(), 0);
     std::vector<char> seen(beside.size(), 0);
@@ -96,17 +94,17 @@ std::optional<double> middle_around(const Eigen::VectorXd& angle, const std::vec
         return std::nullopt;
     std::vector<Arc> arcs;
     const auto add = [&](double from, double length) {
-        from -= turn * std::floor(from / turn);
+        from -= full_turn * std::floor(from / full_turn);
         arcs.push_back({from, from + length});
     };
     for (const double a : angle)
         add(a, 0);
     for (const auto& [a, b] : edges) {
-        const double way = std::remainder(angle[b] - angle[a], turn);
+        const double way = std::remainder(angle[b] - angle[a], full_turn);
         add(way >= 0 ? angle[a] : angle[b], std::abs(way));
     }
     const std::optional<double> gap = middle_of_gap(std::move(arcs));
-    return gap ? std::optional(*gap + turn / 2) : std::nullopt;
+    return gap ? std::optional(*gap + full_turn / 2) : std::nullopt;
 }
 
 TargetSurface turned_over(const TargetSurface& face)
@@ -147,7 +145,7 @@ std::optional<Eigen::Matrix2Xd> unwound(const TargetSurface& face, const Eigen::
     for (Eigen::Index v = 0; v < point.cols(); ++v)
         places.col(v) = developed(face, point.col(v));
     TargetSurface round = face;
-    const auto angles = [&](const Around& around) {
+    const auto angles = [&](const FaceAround& around) {
         Eigen::VectorXd angle(point.cols());
         for (Eigen::Index v = 0; v < point.cols(); ++v)
             angle[v] = around.angle(point.col(v));
@@ -158,12 +156,12 @@ std::optional<Eigen::Matrix2Xd> unwound(const TargetSurface& face, const Eigen::
         if (!turns)
             return std::nullopt;
         for (Eigen::Index v = 0; v < point.cols(); ++v)
-            places(0, v) += (cylinder->bulges ? 1 : -1) * cylinder->radius * turn * (*turns)[size_t(v)];
+            places(0, v) += (cylinder->bulges ? 1 : -1) * cylinder->radius * full_turn * (*turns)[size_t(v)];
     } else if (auto* cone = std::get_if<ConeFace>(&round)) {
         const auto turns = turns_along(angles({cone->apex, cone->axis, cone->towards}), edges);
         if (!turns)
             return std::nullopt;
-        const double flat_turn = (cone->bulges ? -1 : 1) * std::sin(cone->half_angle) * turn;
+        const double flat_turn = (cone->bulges ? -1 : 1) * std::sin(cone->half_angle) * full_turn;
         for (Eigen::Index v = 0; v < point.cols(); ++v)
             places.col(v) = (Eigen::Rotation2Dd(flat_turn * (*turns)[size_t(v)]) * places.col(v)).eval();
     }

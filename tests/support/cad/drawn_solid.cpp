@@ -22,6 +22,7 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "engine/core/angle.h"
 #include "engine/exchange/cad/occt_session.h"
 #include "tests/support/cad/section_face.h"
 #include "tests/support/cad/write_solid.h"
@@ -30,8 +31,6 @@
 
 namespace spia::shapes {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 TopoDS_Shape turned(const Profile& profile, double t, double turn = 2 * std::numbers::pi)
 {
@@ -66,23 +65,23 @@ Profile round_section(SeededRandom& random, int kind, double t)
     const double bottom = t * random.between(8, 25);
     Profile profile({0, 0}, 0);
     switch (kind) {
-    case 0: return profile.straight(bottom).bend(radius(), 90 * degree).straight(t * random.between(4, 14));
+    case 0: return profile.straight(bottom).bend(radius(), 90 * radians_per_degree).straight(t * random.between(4, 14));
     case 1:
         return profile.straight(bottom)
-            .bend(radius(), 90 * degree)
+            .bend(radius(), 90 * radians_per_degree)
             .straight(t * random.between(1, 10))
-            .bend(radius(), -90 * degree)
+            .bend(radius(), -90 * radians_per_degree)
             .straight(t * random.between(3, 12));
     case 2:
         return profile.straight(bottom)
-            .bend(radius(), 90 * degree)
+            .bend(radius(), 90 * radians_per_degree)
             .straight(t * random.between(1, 6))
-            .bend(radius(), -90 * degree)
+            .bend(radius(), -90 * radians_per_degree)
             .straight(t * random.between(2, 8))
-            .bend(radius(), 90 * degree)
+            .bend(radius(), 90 * radians_per_degree)
             .straight(t * random.between(2, 8));
     case 3: {
-        const double slope = degree * random.between(25, 75);
+        const double slope = radians_per_degree * random.between(25, 75);
         return profile.straight(bottom)
             .bend(radius(), slope)
             .straight(t * random.between(4, 15))
@@ -90,7 +89,7 @@ Profile round_section(SeededRandom& random, int kind, double t)
             .straight(t * random.between(3, 12));
     }
     default: {
-        const double slope = degree * random.between(25, 70);
+        const double slope = radians_per_degree * random.between(25, 70);
         return profile.bend(t * random.between(15, 40), slope)
             .bend(radius(), -slope)
             .straight(t * random.between(3, 12));
@@ -107,10 +106,11 @@ TopoDS_Wire rounded(double length, double width, double r, double z)
         const auto corner = [&](int at, double angle) {
             return gp_Pnt(sign[at % 4][0] * x + r * std::cos(angle), sign[at % 4][1] * y + r * std::sin(angle), z);
         };
-        const double from = (k - 1) * 90 * degree, to = from + 90 * degree;
-        wire.Add(BRepBuilderAPI_MakeEdge(
-                     GC_MakeArcOfCircle(corner(k, from), corner(k, from + 45 * degree), corner(k, to)).Value())
-                     .Edge());
+        const double from = (k - 1) * 90 * radians_per_degree, to = from + 90 * radians_per_degree;
+        wire.Add(
+            BRepBuilderAPI_MakeEdge(
+                GC_MakeArcOfCircle(corner(k, from), corner(k, from + 45 * radians_per_degree), corner(k, to)).Value())
+                .Edge());
         wire.Add(BRepBuilderAPI_MakeEdge(corner(k, to), corner(k + 1, to)).Edge());
     }
     return wire.Wire();
@@ -180,7 +180,7 @@ Box random_box(SeededRandom& random, int kind, double t)
     box.width = 2 * box.corner + t * random.between(10, 40);
     box.bottom = random.between(2.5 * t, 0.7 * box.corner);
     box.height = box.bottom + t * random.between(3, 10);
-    box.lean = kind == 6 ? degree * random.between(3, 20) : 0;
+    box.lean = kind == 6 ? radians_per_degree * random.between(3, 20) : 0;
     box.brim = kind == 7 ? t * random.between(4, 12) : 0;
     return box;
 }

@@ -5,12 +5,11 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "engine/core/angle.h"
 #include "tests/support/seeded_random.h"
 
 namespace spia::shapes {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Whether the section keeps clear of itself: by a tenth of its thickness at least.
 bool clear(const BentSolid& solid)
@@ -43,7 +42,7 @@ BentSolid drawn(SeededRandom& random)
     solid.thickness = even_in_logarithm(random, 0.4, 6);
     const double t = solid.thickness;
     const auto radius = [&] { return t * even_in_logarithm(random, 0.1, 20); };
-    const auto angle = [&](double low, double high) { return degree * random.between(low, high); };
+    const auto angle = [&](double low, double high) { return radians_per_degree * random.between(low, high); };
     const auto leg = [&] { return t * even_in_logarithm(random, 4, 40); };
     const double way = random.coin() ? 1 : -1;
     const auto bends = [&](std::initializer_list<double> signs, double low, double high) {
@@ -71,7 +70,7 @@ BentSolid drawn(SeededRandom& random)
         solid.leg.push_back(leg());
     solid.width = t * even_in_logarithm(random, 15, 60);
     // Drilled after bending; through a sharper bend it would be a slit along the sheet.
-    solid.hole = random.whole(0, 2) == 0 && std::abs(solid.bend[0].angle) < 80 * degree;
+    solid.hole = random.whole(0, 2) == 0 && std::abs(solid.bend[0].angle) < 80 * radians_per_degree;
     return solid;
 }
 
@@ -107,7 +106,7 @@ BendCut drawn_cut(SeededRandom& random, const BentSolid& solid, int bend)
         break;
     default:
         outlined(size, size, 0);
-        cut.outline.turn = 45 * degree;
+        cut.outline.turn = 45 * radians_per_degree;
         cut.y = random.coin() ? 0 : width;
     }
     return cut;
@@ -131,7 +130,7 @@ BentSolid drawn_with_cut_bends(SeededRandom& random)
     double way = random.coin() ? 1 : -1, largest = 0;
     for (int b = 0; b < bends; ++b) {
         solid.bend.push_back(
-            {solid.thickness * even_in_logarithm(random, 0.3, 10), way * degree * random.between(20, 110)});
+            {solid.thickness * even_in_logarithm(random, 0.3, 10), way * radians_per_degree * random.between(20, 110)});
         largest = std::max(largest, solid.bend.back().inner_radius + solid.thickness);
         way = random.coin() ? way : -way;
     }
@@ -148,8 +147,8 @@ BentSolid drawn_with_a_wide_hole(SeededRandom& random)
     BentSolid solid;
     solid.kind = "wide hole";
     const double t = solid.thickness = even_in_logarithm(random, 0.5, 4);
-    solid.bend.push_back(
-        {t * even_in_logarithm(random, 0.2, 1), (random.coin() ? 1 : -1) * degree * random.between(30, 125)});
+    solid.bend.push_back({t * even_in_logarithm(random, 0.2, 1),
+                          (random.coin() ? 1 : -1) * radians_per_degree * random.between(30, 125)});
     const double radius = solid.bend[0].inner_radius + t / 2,
                  chord = 2 * radius * std::sin(std::abs(solid.bend[0].angle) / 2), d = chord * random.between(0.6, 1.6);
     for (int leg = 0; leg < 2; ++leg)
@@ -192,11 +191,12 @@ BentSolid random_embossed_bracket(std::uint64_t seed)
         static const char* const kinds[] = {"bracket", "two bends", "joggle"};
         solid.kind = kinds[kind];
         const double way = random.coin() ? 1 : -1, same = random.coin() ? 1 : -1,
-                     angle = degree * random.between(kind == 2 ? 25 : 30, kind == 2 ? 60 : 110);
+                     angle = radians_per_degree * random.between(kind == 2 ? 25 : 30, kind == 2 ? 60 : 110);
         solid.bend.push_back({t * even_in_logarithm(random, 0.5, 5), way * angle});
         if (kind > 0)
-            solid.bend.push_back({t * even_in_logarithm(random, 0.5, 5),
-                                  kind == 2 ? -way * angle : way * same * degree * random.between(30, 100)});
+            solid.bend.push_back(
+                {t * even_in_logarithm(random, 0.5, 5),
+                 kind == 2 ? -way * angle : way * same * radians_per_degree * random.between(30, 100)});
         const double size = t * random.between(36, 50); // an emboss reaches 13 thicknesses
         for (size_t b = 0; b <= solid.bend.size(); ++b)
             solid.leg.push_back(kind == 2 && b == 1 ? t * random.between(2, 5) : size * random.between(1, 1.5));
@@ -207,12 +207,12 @@ BentSolid random_embossed_bracket(std::uint64_t seed)
             Emboss emboss;
             emboss.leg = int(b);
             emboss.radius = t * random.between(1.2, 2.5);
-            emboss.slope = degree * random.between(20, 50);
+            emboss.slope = radians_per_degree * random.between(20, 50);
             emboss.flat = t * random.between(1.5, 4);
             emboss.ramp = t * random.between(0.3, 1.5);
             emboss.left = random.coin();
             emboss.length = random.coin() ? t * random.between(4, 8) : 0;
-            emboss.turn = degree * random.between(-90, 90);
+            emboss.turn = radians_per_degree * random.between(-90, 90);
             emboss.centre = {solid.leg[b] * random.between(0.48, 0.52), solid.width * random.between(0.45, 0.55)};
             solid.emboss.push_back(emboss);
         }

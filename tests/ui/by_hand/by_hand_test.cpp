@@ -108,12 +108,6 @@ glm::dvec2 beside(const Json& report, int corner)
            across * std::copysign((at_tip ? Channel::length : Channel::tip) / 2, b);
 }
 
-bool all_fresh(const Json& now)
-{
-    return now["job"]["running"] == false && now["stages"]["solve"] == true && now["stages"]["grid"] == true &&
-           now["stages"]["fit"] == true;
-}
-
 /// Of work that is not saved in a project.
 size_t kept_files(const fs::path& folder)
 {

@@ -63,4 +63,11 @@ private:
     double longest_ = 0;
 };
 
+/// Whether blank, grid and surface are computed from what is set, and nothing runs.
+inline bool all_fresh(const Json& now)
+{
+    return now["job"]["running"] == false && now["stages"]["solve"] == true && now["stages"]["grid"] == true &&
+           now["stages"]["fit"] == true;
+}
+
 } // namespace spia::viewer

@@ -12,12 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool all_fresh(const Json& now)
-{
-    return now["job"]["running"] == false && now["stages"]["solve"] == true && now["stages"]["grid"] == true &&
-           now["stages"]["fit"] == true;
-}
-
 class VerdictByHand : public testing::Test {
 protected:
     fs::path folder =

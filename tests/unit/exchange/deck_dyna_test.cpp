@@ -250,12 +250,12 @@ TEST(DynaDeck, ThicknessesWithoutSenseAreToldAndNotTaken)
 {
     const std::string shells = four_nodes + "*PART\nlid\n7,5,6\n*ELEMENT_SHELL\n1,7,1,2,3,4\n*SECTION_SHELL\n5,2\n";
     for (const char* absurd : {"-1", "1e300", "1e6"}) {
-        const Deck deck = spia::read(shells + absurd + "\n");
+        const Deck deck = deck_dyna_test::read(shells + absurd + "\n");
         EXPECT_FALSE(deck.parts[0].thickness) << absurd;
         EXPECT_TRUE(has_note(deck, "part 7 lid: its thickness of")) << absurd;
     }
-    EXPECT_EQ(spia::read(shells + "1e5\n").parts[0].thickness, 1e5);
-    const Deck own = spia::read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n9,7,1,2,3,4\n-2,-2,-2,-2\n");
+    EXPECT_EQ(deck_dyna_test::read(shells + "1e5\n").parts[0].thickness, 1e5);
+    const Deck own = deck_dyna_test::read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n9,7,1,2,3,4\n-2,-2,-2,-2\n");
     EXPECT_TRUE(has_note(own, "1 shell has an own thickness that is invalid"));
     EXPECT_TRUE(has_note(own, "first: element 9"));
     EXPECT_FALSE(own.parts[0].thickness);
@@ -264,8 +264,8 @@ TEST(DynaDeck, ThicknessesWithoutSenseAreToldAndNotTaken)
 TEST(DynaDeck, AMinusBeforeAParameterTurnsItsSign)
 {
     const auto second_node = [](const std::string& value, const std::string& field) {
-        return spia::read("*PARAMETER\nR x, " + value + "\n*NODE\n1,0,0,0\n2," + field +
-                          ",0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT_SHELL\n1,7,1,2,3,4\n")
+        return deck_dyna_test::read("*PARAMETER\nR x, " + value + "\n*NODE\n1,0,0,0\n2," + field +
+                                    ",0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT_SHELL\n1,7,1,2,3,4\n")
             .position.at(1)
             .x();
     };
@@ -279,13 +279,15 @@ TEST(DynaDeck, AMinusBeforeAParameterTurnsItsSign)
 TEST(DynaDeck, FieldsThatAreNotWrittenBackAreTold)
 {
     const std::string shell = four_nodes + "*ELEMENT_SHELL";
-    EXPECT_TRUE(has_note(spia::read(shell + "_OFFSET\n1,7,1,2,3,4\n.5\n"), "1 shell has a material direction"));
-    EXPECT_FALSE(has_note(spia::read(shell + "\n1,7,1,2,3,4\n"), "material direction"));
+    EXPECT_TRUE(
+        has_note(deck_dyna_test::read(shell + "_OFFSET\n1,7,1,2,3,4\n.5\n"), "1 shell has a material direction"));
+    EXPECT_FALSE(has_note(deck_dyna_test::read(shell + "\n1,7,1,2,3,4\n"), "material direction"));
 }
 
 TEST(DynaDeck, CardsOfOtherKindsOfShellsAreNotShells)
 {
-    const Deck deck = spia::read(four_nodes + "*ELEMENT_SHELL\n1,7,1,2,3,4\n*ELEMENT_SHELL_SOURCE_SINK\n12,1,2\n");
+    const Deck deck =
+        deck_dyna_test::read(four_nodes + "*ELEMENT_SHELL\n1,7,1,2,3,4\n*ELEMENT_SHELL_SOURCE_SINK\n12,1,2\n");
     EXPECT_EQ(deck.elements(), 1);
     EXPECT_TRUE(has_note(deck, "*ELEMENT_SHELL_SOURCE_SINK lines"));
 }

@@ -6,10 +6,10 @@
 #include "engine/remesh/triangle_quality.h"
 #include "tests/support/shapes.h"
 
-namespace spia {
+namespace spia::total_curvature_test {
 namespace {
 
-using std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 /// The grid over [0, 1]^2 put in space.
 template <class Place> TriMesh placed(int columns, int rows, const Place& place)
@@ -57,4 +57,4 @@ TEST(TotalCurvature, OfASaddleAddsWhatIsNegative)
 }
 
 } // namespace
-} // namespace spia
+} // namespace spia::total_curvature_test

@@ -9,7 +9,7 @@
 namespace spia::viewer {
 namespace {
 
-void heading(const Frame& frame, const char* text)
+void column_heading(const Frame& frame, const char* text)
 {
     ImGui::AlignTextToFramePadding();
     ImGui::PushFont(frame.ui.fonts.bold);
@@ -20,7 +20,7 @@ void heading(const Frame& frame, const char* text)
 void pictures_column(const Frame& frame, ViewerReportOptions& options)
 {
     const Session& session = frame.state.document.session;
-    heading(frame, "Pictures");
+    column_heading(frame, "Pictures");
     auto& chosen = options.pictures;
     for (const View view : all_views) {
         const bool there = (view != View::quads || session.lifted) && (view != View::surface || session.surface);
@@ -33,7 +33,7 @@ void pictures_column(const Frame& frame, ViewerReportOptions& options)
         }
         ImGui::EndDisabled();
     }
-    heading(frame, "Appearance");
+    column_heading(frame, "Appearance");
     if (ImGui::RadioButton("Standard: light, whole part, thinning", options.standard_look))
         options.standard_look = true;
     if (ImGui::RadioButton("Current views", !options.standard_look))
@@ -42,7 +42,7 @@ void pictures_column(const Frame& frame, ViewerReportOptions& options)
 
 void tables_column(const Frame& frame, ReportTables& tables)
 {
-    heading(frame, "Tables");
+    column_heading(frame, "Tables");
     ImGui::Checkbox("Key figures", &tables.key_figures);
     ImGui::Checkbox("Largest thinning", &tables.worst_spots);
     ImGui::Checkbox("Assumptions", &tables.assumptions);

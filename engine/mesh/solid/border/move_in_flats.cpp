@@ -11,9 +11,9 @@
 namespace spia {
 namespace {
 
-class Flats {
+class MovedFlats {
 public:
-    Flats(const SkinMesh& surface, const std::vector<FlatMove>& moves)
+    MovedFlats(const SkinMesh& surface, const std::vector<FlatMove>& moves)
         : surface_(surface), mesh_(surface.mesh), tolerance_(1e-6 * bounding_diagonal(mesh_)), goal_(mesh_.position),
           neighbour_(face_neighbours(mesh_.triangles(), edge_uses(mesh_.triangle))),
           face_at_(size_t(mesh_.vertices()), -1)
@@ -105,7 +105,7 @@ int vertex_of(const SkinMesh& middle, const StraightVertex& straight)
 std::vector<FlatMove> move_in_flats(SkinMesh& surface, const std::vector<FlatMove>& moves)
 {
     const SkinMesh before = surface;
-    const Flats flats(before, moves);
+    const MovedFlats flats(before, moves);
     std::vector<char> done(size_t(before.mesh.vertices()), 0), kept = done;
     std::vector<FlatMove> not_made;
     for (const FlatMove& move : moves) {

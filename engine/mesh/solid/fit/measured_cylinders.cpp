@@ -37,9 +37,9 @@ double tight(double radius, double thickness) { return 1e-3 * std::min(radius, t
 double loose(double radius, double thickness) { return std::min(0.01 * radius, 0.02 * thickness); }
 
 /// One after the other on both skins.
-class Search {
+class CylinderSearch {
 public:
-    Search(const TriMesh& solid, const ThinSolid& sheet)
+    CylinderSearch(const TriMesh& solid, const ThinSolid& sheet)
         : solid_(solid), sheet_(sheet), normal_((sheet.flipped * area_vectors(solid)).colwise().normalized()),
           neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))),
           diagonal_(bounding_diagonal(solid)), taken_(size_t(solid.triangles()), 0), seen_(taken_.size(), 0)
@@ -439,7 +439,7 @@ std::vector<Group> groups_of(const TriMesh& solid, double thickness, const std::
 std::vector<StatedSurface> measured_cylinders(const TriMesh& solid, const ThinSolid& sheet)
 {
     std::vector<StatedSurface> surface(size_t(solid.triangles()));
-    const std::vector<Region> regions = Search(solid, sheet).regions();
+    const std::vector<Region> regions = CylinderSearch(solid, sheet).regions();
     for (const Group& group : groups_of(solid, sheet.thickness, regions)) {
         const double bulging = regions[group.region.front()].bulging;
         for (const size_t i : group.region) {

@@ -11,12 +11,10 @@
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/solid/fit/cylinder_fit.h"
 #include "engine/mesh/solid/fit/plane_regions.h"
+#include "engine/mesh/solid/holes/hole_limits.h"
 
 namespace spia {
 namespace {
-
-constexpr double same = 1e-3,
-                 wider = 0.02; // of the thickness, as sunk_holes() has them
 
 /// The circle across the direction in which places lie least apart.
 std::optional<RoundEdge> circle_of(const Eigen::Matrix3Xd& places, double within)
@@ -65,7 +63,7 @@ bool CutOffHoles::around(const RoundEdge& circle, int f) const
     const Eigen::Vector3d n = normal_.col(f);
     const Eigen::Vector3d out =
         circle.off_axis(solid_.position(Eigen::all, solid_.triangle.col(f)).rowwise().mean()).normalized();
-    return altitude(solid_, f, n) < wider * sheet_.thickness ||
+    return altitude(solid_, f, n) < sunk_in_hole * sheet_.thickness ||
            std::abs(n.dot(circle.axis.cross(out))) < chord * n.norm();
 }
 
@@ -94,7 +92,7 @@ std::vector<SunkHole> CutOffHoles::of(const RoundHole& hole) const
         least = std::min(least, radius(v));
     std::vector<int> narrowest;
     for (const int v : vertex)
-        if (radius(v) <= least + same * t)
+        if (radius(v) <= least + same_in_hole * t)
             narrowest.push_back(v);
     const auto [deepest, highest] = std::ranges::minmax(narrowest, {}, height);
     const bool round = hole.mouth.surrounded(solid_.position(Eigen::all, narrowest));
@@ -112,7 +110,7 @@ std::vector<SunkHole> CutOffHoles::of(const RoundHole& hole) const
                   &at_near = meeting[near == SheetSide::outer ? 0 : 1];
     if (far == SheetSide::rim || at_far.wall.empty() || at_near.wall.empty())
         return {};
-    if (least < hole.mouth.radius - wider * t) {
+    if (least < hole.mouth.radius - sunk_in_hole * t) {
         SunkHole each = cut_off(at_near, near, -hole.mouth.axis);
         each.centre = hole.mouth.centre;
         each.cut_off = false;
@@ -123,7 +121,7 @@ std::vector<SunkHole> CutOffHoles::of(const RoundHole& hole) const
                     each.outer.push_back(v);
         measured(std::move(each), hole.mouth.radius, -height(highest));
     }
-    if (least < hole.far - wider * t) {
+    if (least < hole.far - sunk_in_hole * t) {
         SunkHole each = cut_off(at_far, far, hole.mouth.axis);
         each.centre = hole.mouth.centre + low * hole.mouth.axis;
         measured(std::move(each), hole.far, height(deepest) - low);
@@ -157,7 +155,7 @@ std::vector<RoundEdge> CutOffHoles::sharp_circles(const std::vector<int>& wall) 
         rows[together.root(int(i))].push_back(ends[i]);
     std::vector<RoundEdge> circles;
     for (const auto& [root, row] : rows)
-        if (const auto circle = circle_of(solid_.position(Eigen::all, row), same * sheet_.thickness))
+        if (const auto circle = circle_of(solid_.position(Eigen::all, row), same_in_hole * sheet_.thickness))
             circles.push_back(*circle);
     return circles;
 }
@@ -172,7 +170,7 @@ std::vector<SunkHole> CutOffHoles::over_bend(const std::vector<int>& wall) const
     std::vector<SunkHole> found;
     for (const RoundEdge& circle : sharp_circles(wall)) {
         const auto narrower = [&](int v) {
-            return circle.off_axis(solid_.position.col(v)).norm() < circle.radius - same * t;
+            return circle.off_axis(solid_.position.col(v)).norm() < circle.radius - same_in_hole * t;
         };
         const auto is_around = [&](int f) { return around(circle, f); };
         if (std::ranges::any_of(vertex, narrower) || !std::ranges::all_of(wall, is_around))
@@ -184,7 +182,7 @@ std::vector<SunkHole> CutOffHoles::over_bend(const std::vector<int>& wall) const
                 centre += solid_.position.col(v) / double(meeting[i].way.size());
                 wide = std::max(wide, circle.off_axis(solid_.position.col(v)).norm());
             }
-            if (wide < circle.radius + wider * t)
+            if (wide < circle.radius + sunk_in_hole * t)
                 continue;
             const double way = circle.height(centre) > 0 ? -1 : 1;
             SunkHole hole = cut_off(meeting[i], i == 0 ? SheetSide::outer : SheetSide::inner, way * circle.axis);

@@ -11,26 +11,25 @@
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/solid/fit/cylinder_fit.h"
 #include "engine/mesh/solid/fit/plane_regions.h"
+#include "engine/mesh/solid/holes/hole_limits.h"
 #include "engine/mesh/solid/marks/sheet_marks.h"
 
 namespace spia {
 namespace {
 
-constexpr double same = 1e-3;             // of the thickness, as round_holes() has it
 constexpr double least = 0.9, most = 1.1; // of the thickness: sheet that is as thick, about
-constexpr double wider = 0.02;            // of the thickness, as sunk_holes() has it
 constexpr double square = 0.02;           // the cosine of 89 degrees
 constexpr double turning = 0.985;         // mean of unit vectors over an arc of 35 degrees
 
 /// Edges of a floor beyond which walls stand square to it, rising from it or going down.
 using Edges = std::vector<FaceEdge>;
 
-class Search {
+class CounterboreSearch {
 public:
-    Search(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness)
+    CounterboreSearch(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness)
         : solid_(solid), normal_(normal), thickness_(thickness),
           neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))),
-          planes_(plane_regions(solid, normal, neighbour_, same * thickness))
+          planes_(plane_regions(solid, normal, neighbour_, same_in_hole * thickness))
     {
     }
 
@@ -121,7 +120,7 @@ private:
     /// Of walls that go down from a floor those of a hole about the axis: others are a border's.
     Edges hole_below(const Edges& down, const FittedCylinder& wide) const
     {
-        const double within = same * thickness_;
+        const double within = same_in_hole * thickness_;
         const auto radii = [&](const FaceEdge& at) {
             const Eigen::Matrix3Xd place = ends({at});
             return Eigen::Vector2d(distance_from_axis(wide, place.col(0)), distance_from_axis(wide, place.col(1)));
@@ -135,7 +134,7 @@ private:
             for (const FaceEdge& at : down)
                 if ((radii(at).array() - r).abs().maxCoeff() < within)
                     alike.push_back(at);
-            if (r < wide.radius - wider * thickness_ && alike.size() > best.size()) {
+            if (r < wide.radius - sunk_in_hole * thickness_ && alike.size() > best.size()) {
                 best = std::move(alike);
                 radius = r;
             }
@@ -150,7 +149,7 @@ private:
     {
         if (rising.size() < 3 || down.size() < 2)
             return std::nullopt;
-        const double within = same * thickness_;
+        const double within = same_in_hole * thickness_;
         const auto wide = cylinder_along(planes_.direction.col(plane), ends(rising));
         if (!wide || wide->off > within || !around(rising, *wide))
             return std::nullopt;
@@ -174,7 +173,7 @@ private:
             if (planes_.of[size_t(f)] == plane)
                 result.floor.push_back(f);
             else if (stands(f, plane) && height(f, plane) > 0 && height(f, plane) < thickness_ &&
-                     lies_on(solid_, wide, f, same * thickness_))
+                     lies_on(solid_, wide, f, same_in_hole * thickness_))
                 result.wall.push_back(f);
         for (const int f : result.floor)
             result.place +=
@@ -187,7 +186,7 @@ private:
 
 std::vector<OpenCounterbore> open_counterbores(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness)
 {
-    return Search(solid, normal, thickness).found();
+    return CounterboreSearch(solid, normal, thickness).found();
 }
 
 } // namespace spia

@@ -28,9 +28,9 @@ struct Wall {
     std::vector<int> face; ///< ascending
 };
 
-class Search {
+class SinkSearch {
 public:
-    Search(const TriMesh& solid, const ThinSolid& sheet)
+    SinkSearch(const TriMesh& solid, const ThinSolid& sheet)
         : solid_(solid), sheet_(sheet), normal_(sheet.flipped * area_vectors(solid)),
           neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))), up_(sheet.side.size()),
           in_(sheet.side.size(), 0), done_(sheet.side.size(), 0)
@@ -275,7 +275,7 @@ private:
 
 std::vector<OpenSink> open_sinks(const TriMesh& solid, const ThinSolid& sheet, const std::vector<SunkHole>& told)
 {
-    Search search(solid, sheet);
+    SinkSearch search(solid, sheet);
     std::vector<OpenSink> found = search.sinks(told);
     for (OpenSink& each : search.counterbores(told))
         found.push_back(std::move(each));

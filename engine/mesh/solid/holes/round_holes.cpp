@@ -9,12 +9,11 @@
 
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/solid/fit/plane_regions.h"
+#include "engine/mesh/solid/holes/hole_limits.h"
 
 namespace spia {
 namespace {
 
-constexpr double same = 1e-3; // of the thickness: single precision of STL files is that of usual
-                              // ones at most
 constexpr double through = 0.9,
                  beyond = 1.1; // of the thickness: planes lie as far apart as it says, but for
                                // chords of bends
@@ -28,10 +27,10 @@ struct Mouth {
     std::vector<FaceEdge> edge;
 };
 
-class Search {
+class RoundHoleSearch {
 public:
-    Search(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness)
-        : solid_(solid), normal_(normal), thickness_(thickness), same_(same * thickness),
+    RoundHoleSearch(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness)
+        : solid_(solid), normal_(normal), thickness_(thickness), same_(same_in_hole * thickness),
           neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))),
           planes_(plane_regions(solid, normal, neighbour_, same_))
     {
@@ -280,7 +279,7 @@ private:
 
 std::vector<RoundHole> round_holes(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness)
 {
-    return Search(solid, normal, thickness).holes();
+    return RoundHoleSearch(solid, normal, thickness).holes();
 }
 
 } // namespace spia

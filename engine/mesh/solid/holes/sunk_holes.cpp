@@ -16,6 +16,7 @@
 #include "engine/mesh/solid/border/move_in_flats.h"
 #include "engine/mesh/solid/fit/round_edge.h"
 #include "engine/mesh/solid/holes/cut_off_holes.h"
+#include "engine/mesh/solid/holes/hole_limits.h"
 #include "engine/mesh/solid/holes/round_holes.h"
 #include "engine/mesh/solid/holes/sheet_walls.h"
 #include "engine/mesh/topology.h"
@@ -28,7 +29,7 @@ namespace {
 std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const WallEdge& edge,
                                         double thickness)
 {
-    constexpr double plane = 1 - 1e-6, same = 1e-3; // 0.1 degrees; of the thickness
+    constexpr double plane = 1 - 1e-6; // 0.1 degrees
     Eigen::Vector3d outwards = Eigen::Vector3d::Zero();
     double size = 0;
     for (const int f : edge.skin) {
@@ -37,7 +38,7 @@ std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matri
     }
     if (edge.skin.empty() || outwards.norm() < plane * size)
         return std::nullopt;
-    const auto circle = round_edge(solid.position(Eigen::all, edge.vertex), outwards, same * thickness);
+    const auto circle = round_edge(solid.position(Eigen::all, edge.vertex), outwards, same_in_hole * thickness);
     double beyond = 0; // of the sheet's own outline the skin is within
     for (const int f : edge.skin)
         if (circle)
@@ -49,9 +50,6 @@ std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matri
 std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const SheetWall& wall,
                              SheetSide side, double thickness)
 {
-    constexpr double same = 1e-3,
-                     wider = 0.02; // of the thickness; a hole that was punched is wider at one side
-                                   // by less
     const WallEdge& edge = wall.edge(side);
     const std::optional<RoundEdge> circle = circle_through(solid, normal, edge, thickness);
     if (!circle)
@@ -59,12 +57,12 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
     double least = std::numeric_limits<double>::infinity();
     for (const int v : wall.vertex)
         least = std::min(least, circle->off_axis(solid.position.col(v)).norm());
-    if (least > circle->radius - wider * thickness)
+    if (least > circle->radius - sunk_in_hole * thickness)
         return std::nullopt;
     double depth = std::numeric_limits<double>::infinity();
     std::vector<int> narrowest;
     for (const int v : wall.vertex)
-        if (circle->off_axis(solid.position.col(v)).norm() <= least + same * thickness) {
+        if (circle->off_axis(solid.position.col(v)).norm() <= least + same_in_hole * thickness) {
             depth = std::min(depth, -circle->height(solid.position.col(v)));
             narrowest.push_back(v);
         }
@@ -78,7 +76,7 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
     constexpr double square = 0.1; // 6 degrees
     SunkHole hole{0,         side,  circle->centre,         -circle->axis,     2 * circle->radius,
                   2 * least, depth, along <= square * size, edge.wall.front(), wall.outer.vertex};
-    const double off = wider * thickness;
+    const double off = sunk_in_hole * thickness;
     double floor = 0; // mm, of what is as wide as the circle
     for (const int v : wall.vertex) {
         const double radius = circle->off_axis(solid.position.col(v)).norm(),

@@ -15,7 +15,7 @@ namespace spia {
 namespace {
 
 /// Numbers of corners, in order around it.
-using Polygon = std::vector<int>;
+using PolygonRow = std::vector<int>;
 
 /// A plane that triangles of the skin lie in, and their area.
 struct Flat {
@@ -116,7 +116,7 @@ int zone_of(const UnrolledSkin& skin, const MarkedSkin& marked, int f)
     return middle ? skin.zone(middle->x()) : 0;
 }
 
-bool inside(const std::vector<Eigen::Vector2d>& at, const Polygon& polygon, const Eigen::Vector2d& p)
+bool inside(const std::vector<Eigen::Vector2d>& at, const PolygonRow& polygon, const Eigen::Vector2d& p)
 {
     Eigen::Matrix2Xd corner(2, Eigen::Index(polygon.size()));
     for (size_t i = 0; i < polygon.size(); ++i)
@@ -126,18 +126,19 @@ bool inside(const std::vector<Eigen::Vector2d>& at, const Polygon& polygon, cons
 
 /// Cuts a polygon along the line u = `seam`, from corner to corner; where its edges cross the line
 /// they have corners, as edges of a CAD file do.
-std::vector<Polygon> cut_along(const std::vector<Eigen::Vector2d>& at, const Polygon& whole, double seam, double on)
+std::vector<PolygonRow> cut_along(const std::vector<Eigen::Vector2d>& at, const PolygonRow& whole, double seam,
+                                  double on)
 {
-    Polygon along;
+    PolygonRow along;
     for (const int i : whole)
         if (std::abs(at[size_t(i)].x() - seam) <= on)
             along.push_back(i);
     std::sort(along.begin(), along.end(), [&](int a, int b) { return at[size_t(a)].y() < at[size_t(b)].y(); });
-    std::vector<Polygon> pieces{whole};
+    std::vector<PolygonRow> pieces{whole};
     for (size_t k = 0; k + 1 < along.size(); ++k) {
         const Eigen::Vector2d middle = (at[size_t(along[k])] + at[size_t(along[k + 1])]) / 2;
         for (size_t p = 0; p < pieces.size(); ++p) {
-            const Polygon piece = pieces[p];
+            const PolygonRow piece = pieces[p];
             auto i = size_t(std::find(piece.begin(), piece.end(), along[k]) - piece.begin()),
                  j = size_t(std::find(piece.begin(), piece.end(), along[k + 1]) - piece.begin());
             if (i == piece.size() || j == piece.size())
@@ -147,9 +148,9 @@ std::vector<Polygon> cut_along(const std::vector<Eigen::Vector2d>& at, const Pol
             const bool neighbours = j == i + 1 || (i == 0 && j + 1 == piece.size());
             if (neighbours || !inside(at, piece, middle))
                 continue;
-            Polygon rest(piece.begin() + long(j), piece.end());
+            PolygonRow rest(piece.begin() + long(j), piece.end());
             rest.insert(rest.end(), piece.begin(), piece.begin() + long(i) + 1);
-            pieces[p] = Polygon(piece.begin() + long(i), piece.begin() + long(j) + 1);
+            pieces[p] = PolygonRow(piece.begin() + long(i), piece.begin() + long(j) + 1);
             pieces.push_back(std::move(rest));
             break;
         }
@@ -296,18 +297,18 @@ std::optional<RefilledMark> refilled_bend(const MarkedSkin& marked, const std::v
             return std::nullopt;
         at.push_back(*flat);
     }
-    std::vector<Polygon> pieces(1);
+    std::vector<PolygonRow> pieces(1);
     for (size_t i = 0; i < loop.size(); ++i)
         pieces[0].push_back(int(i));
     for (const double seam : skin->seams()) {
-        std::vector<Polygon> cut;
-        for (const Polygon& piece : pieces)
-            for (Polygon& part : cut_along(at, piece, seam, 2 * marked.flat))
+        std::vector<PolygonRow> cut;
+        for (const PolygonRow& piece : pieces)
+            for (PolygonRow& part : cut_along(at, piece, seam, 2 * marked.flat))
                 cut.push_back(std::move(part));
         pieces = std::move(cut);
     }
     std::vector<Triangle> triangles;
-    for (const Polygon& piece : pieces) {
+    for (const PolygonRow& piece : pieces) {
         std::vector<Eigen::Vector3d> corners;
         for (const int i : piece)
             corners.emplace_back(at[size_t(i)].x(), at[size_t(i)].y(), 0);

@@ -112,7 +112,7 @@ void take_out_floors(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const 
 }
 
 /// A skin at its vertices, by the triangles of it around them.
-struct SkinAt {
+struct SkinAtVertices {
     Eigen::Matrix3Xd normal; ///< sum of their area vectors; zero: not on the skin
     Eigen::VectorXd size;    ///< mm2, sum of their lengths
 
@@ -122,9 +122,9 @@ struct SkinAt {
 };
 
 template <class OnSkin>
-SkinAt skin_at_vertices(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const OnSkin& on_skin)
+SkinAtVertices skin_at_vertices(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const OnSkin& on_skin)
 {
-    SkinAt result{Eigen::Matrix3Xd::Zero(3, mesh.vertices()), Eigen::VectorXd::Zero(mesh.vertices())};
+    SkinAtVertices result{Eigen::Matrix3Xd::Zero(3, mesh.vertices()), Eigen::VectorXd::Zero(mesh.vertices())};
     for (int f = 0; f < mesh.triangles(); ++f)
         for (int k = 0; k < 3 && on_skin(f); ++k) {
             result.normal.col(mesh.triangle(k, f)) += normal.col(f);
@@ -137,8 +137,8 @@ SkinAt skin_at_vertices(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, con
 /// a bend, whose chords' normals are off, its length if it goes about straight up; what is on flats
 /// too is told by them. Else how far the foot is off the level of its own.
 /// @param above  mm, a vertex over that level
-double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAt& skin, const HeightAboveSkin& above,
-                     double thickness)
+double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const SkinAtVertices& skin,
+                     const HeightAboveSkin& above, double thickness)
 {
     constexpr double straight =
         0.94; // cosine: the skin's normals at the edge of a mark on a bend are off by half a chord,
@@ -259,7 +259,7 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
         bool floor = false, off = false;
     };
     std::map<int, Group> groups;
-    const SkinAt skin_at =
+    const SkinAtVertices skin_at =
         skin_at_vertices(mesh, normal, [&](int f) { return main[piece(f)] && side[piece(f)] == skin; });
     std::vector<char> at_rim(size_t(mesh.vertices()), 0);
     for (int f = 0; f < mesh.triangles(); ++f)

@@ -106,13 +106,13 @@ std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<O
     return result;
 }
 
-using Side = std::vector<int>; // per piece: 0 one, 1 other, -1 not known, `none` that of the faces
-                               // across the thickness
+using PieceSides = std::vector<int>; // per piece: 0 one, 1 other, -1 not known, `none` that of the faces
+                                     // across the thickness
 constexpr int none = -2;
 
 /// The largest group of pieces that relations join.
-Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relations,
-                const std::vector<double>& opposite)
+PieceSides sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relations,
+                      const std::vector<double>& opposite)
 {
     TwoColours colours(pieces.count());
     for (const Relation& relation : relations)
@@ -122,7 +122,7 @@ Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relati
         if (opposite[size_t(p)] >= surely_skin)
             area[size_t(colours.root(p).first)] += pieces.area[size_t(p)];
     const int largest = int(std::max_element(area.begin(), area.end()) - area.begin());
-    Side side(size_t(pieces.count()), -1);
+    PieceSides side(size_t(pieces.count()), -1);
     for (int p = 0; p < pieces.count(); ++p)
         if (const auto [root, differs] = colours.root(p); root == largest && opposite[size_t(p)] >= surely_skin)
             side[size_t(p)] = differs;
@@ -130,7 +130,7 @@ Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relati
 }
 
 /// Per piece the sides that it touches, 1 one, 2 other; across an edge of any kind.
-std::vector<int> touched_sides(const SurfacePieces& pieces, const Side& side)
+std::vector<int> touched_sides(const SurfacePieces& pieces, const PieceSides& side)
 {
     std::vector<int> touched(size_t(pieces.count()), 0);
     for (const PieceContact& c : pieces.contact)
@@ -143,7 +143,7 @@ std::vector<int> touched_sides(const SurfacePieces& pieces, const Side& side)
 /// group touches. A chamfer hands on which skin it is at: the rounding of one skin and the wall that
 /// ends at a chamfer of the other are the border's.
 /// @returns whether one was
-bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, Side& side)
+bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, PieceSides& side)
 {
     const auto unsure = [&](int p) { return side[size_t(p)] == -1 && !share.border[size_t(p)]; };
     DisjointSets group(size_t(pieces.count()));
@@ -207,7 +207,7 @@ bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, Side& 
 /// none, and what goes over into the faces across smoothly is a rounding of the border.
 /// @returns whether one was
 bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, const PieceShares& share,
-                  double thickness, Side& side)
+                  double thickness, PieceSides& side)
 {
     constexpr double least = 0.1; // of its area
     std::vector<std::array<double, 2>> looked(size_t(pieces.count()), {0, 0});
@@ -245,7 +245,7 @@ SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>&
     SheetSides result;
     const PieceShares share = piece_shares(pieces, places, thickness, across_it);
     result.opposite_area = share.opposite;
-    Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share.opposite);
+    PieceSides side = sure_sides(pieces, relations(pieces, places, share, thickness), share.opposite);
     for (size_t p = 0; p < side.size(); ++p)
         side[p] = across_it[p] ? none : side[p];
     while (settle_faced(pieces, places, share, thickness, side) || settle_groups(pieces, share, side)) {
