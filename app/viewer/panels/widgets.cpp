@@ -25,6 +25,13 @@ bool small_button(const Frame& frame, const char* label)
     return pressed;
 }
 
+void beside_if_room(const char* label)
+{
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x)
+        ImGui::NewLine();
+}
+
 bool coloured_button(const Frame& frame, const char* label, ImVec2 size, const ImVec4& colour)
 {
     const ImVec4 ground = under_white(colour);

@@ -9,6 +9,9 @@ namespace spia::viewer {
 /// A button that is hardly higher than a line of text; letters keep room below it.
 bool small_button(const Frame& frame, const char* label);
 
+/// A button follows: beside the last item where there is room for it, else below.
+void beside_if_room(const char* label);
+
 /// The one obvious next step: a wide button in the accent colour.
 bool primary_button(const Frame& frame, const char* label, bool enabled = true);
 

@@ -113,24 +113,27 @@ void fix_button(Frame& frame, const Finding& finding)
     const Fix fix = fix_of(frame, finding);
     if (fix == Fix::none)
         return;
-    if (!finding.place.empty())
-        ImGui::SameLine();
+    const auto button = [&](const char* label) {
+        if (!finding.place.empty())
+            beside_if_room(label);
+        return small_button(frame, label);
+    };
     ImGui::BeginDisabled(frame.model.busy());
     std::string hint;
     switch (fix) {
     case Fix::keep_largest:
-        if (small_button(frame, "Keep the largest piece"))
+        if (button("Keep the largest piece"))
             read_with(frame, [](Reading& reading) { reading.keep_largest = true; });
         hint =
             "Reads the part again with the largest connected piece only; faces attached at edges of three faces are left out too. Undo restores them.";
         break;
     case Fix::weld:
-        if (small_button(frame, "Weld vertices"))
+        if (button("Weld vertices"))
             read_with(frame, [](Reading& reading) { reading.weld = true; });
         hint = "Reads the part again and welds vertices at the same place. Undo separates them again.";
         break;
     case Fix::close_crack:
-        if (small_button(frame, "Close the crack"))
+        if (button("Close the crack"))
             read_with(frame, [&](Reading& reading) {
                 reading.weld = true;
                 reading.weld_gap_mm = finding.weld_gap;
@@ -139,7 +142,7 @@ void fix_button(Frame& frame, const Finding& finding)
                            length_text(*finding.weld_gap, frame.lengths()));
         break;
     case Fix::cut_corners:
-        if (small_button(frame, "Cut the corners"))
+        if (button("Cut the corners"))
             frame.actions.push(SetSeam{{SeamOptions::Mode::corners}});
         hint = "Reads the part again and cuts it from these corners to its border. Undo joins them again.";
         break;
