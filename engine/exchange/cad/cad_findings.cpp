@@ -335,9 +335,8 @@ void report_cad(const CadContent& cad, PartFile& part)
     part.notes.push_back(cad.sewing_tolerance > 0
                              ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges reduced from {} to {}",
                                            cad.sewing_tolerance, cad.free_before, cad.free_after)
-                         : cad.free_after > 0
-                             ? "not sewn: " + counted(cad.free_after, "free edge", "free edges")
-                             : "not sewn, as no edge is free");
+                         : cad.free_after > 0 ? "not sewn: " + counted(cad.free_after, "free edge", "free edges")
+                                              : "not sewn, as no edge is free");
     if (cad.sewing_tolerance > 0 && cad.sewing_tolerance >= cad.half_an_edge)
         part.notes.push_back(
             fmt::format("the sewing tolerance is half the length of edges or more, the shortest {:.3g} mm: small faces "

@@ -9,6 +9,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/part/curved_faces.h"
 #include "tests/support/cad/drawn_solid.h"
+#include "tests/support/family.h"
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -49,7 +50,7 @@ double farthest_from(Eigen::Matrix2Xd expected, Eigen::Matrix2Xd X)
 TEST(CurvedFaces, OfDrawnSolidsHaveTheAreaOfTheMiddleSurface)
 {
     const ScratchFolder folder;
-    for (std::uint64_t seed = 1; seed <= 16; ++seed)
+    for (std::uint64_t seed = 1; seed <= shapes::family_size(16); ++seed)
         for (const CadForm form : {CadForm::step, CadForm::iges}) {
             const auto file = folder / (std::string("part") + extension(form));
             const shapes::DrawnSolid solid = shapes::write_drawn_solid(file, seed, form);
@@ -68,7 +69,7 @@ TEST(CurvedFaces, OfDrawnSolidsHaveTheAreaOfTheMiddleSurface)
 TEST(CurvedFaces, OfRolledConesAreLaidAsLongAsTheyAre)
 {
     const ScratchFolder folder;
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= shapes::family_size(12); ++seed) {
         shapes::SeededRandom random(seed + 61000);
         shapes::ConicalSheet sheet;
         sheet.thickness = random.between(0.5, 4);

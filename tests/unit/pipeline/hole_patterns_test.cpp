@@ -9,6 +9,7 @@
 #include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_chain.h"
 #include "tests/support/cad/bent_solid.h"
+#include "tests/support/family.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -52,7 +53,7 @@ shapes::BentSolid random_hole_pattern(std::uint64_t seed)
 TEST(HolePatterns, LeaveTheSurfaceAsItIsWithoutThem)
 {
     const ScratchFolder folder;
-    for (int seed = 1; seed <= 12; ++seed) {
+    for (int seed = 1; seed <= int(shapes::family_size(12)); ++seed) {
         const shapes::BentSolid solid = random_hole_pattern(std::uint64_t(seed));
         SCOPED_TRACE(solid.kind);
         Session session;

@@ -9,6 +9,7 @@
 #include "engine/mesh/topology.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/cad/exact_volume.h"
+#include "tests/support/family.h"
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -106,7 +107,7 @@ double sunk_volume(const BentSolid& solid)
 TEST(MixedHoles, AreAllInTheBlankAndStrainNothing)
 {
     const ScratchFolder folder;
-    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    for (std::uint64_t seed = 1; seed <= shapes::family_size(40); ++seed) {
         const BentSolid solid = random_mixed_holes(seed);
         SCOPED_TRACE(solid.kind);
         const Session session = solved_bent_solid(folder / "part.step", solid);

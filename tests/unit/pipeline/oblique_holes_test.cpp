@@ -9,6 +9,7 @@
 #include "engine/mesh/topology.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/cad/exact_volume.h"
+#include "tests/support/family.h"
 #include "tests/support/flat_area.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -59,7 +60,7 @@ BentSolid random_oblique_holes(std::uint64_t seed)
 TEST(ObliqueHoles, AreInTheBlankAsInTheMiddleOfTheSheet)
 {
     const ScratchFolder folder;
-    for (std::uint64_t seed = 1; seed <= 24; ++seed)
+    for (std::uint64_t seed = 1; seed <= shapes::family_size(24); ++seed)
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
             const BentSolid solid = random_oblique_holes(seed);
             const auto step = folder / "part.step", file = folder / (std::string("part") + extension(form));

@@ -15,6 +15,7 @@
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"
+#include "tests/support/family.h"
 #include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
@@ -254,7 +255,7 @@ TEST(SunkHoles, OfAnyAngleDepthAndSizeAreRightHoweverManyAreOnAFlat)
     // Their walls are no skins, though of the flattest ones most lies opposite to the other skin at
     // about the thickness.
     const ScratchFolder folder;
-    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+    for (std::uint64_t seed = 1; seed <= shapes::family_size(40); ++seed)
         for (const auto& [form, parameters] :
              {std::pair(CadForm::step, true), {CadForm::iges, true}, {CadForm::iges, false}, {CadForm::stl, true}}) {
             const BentSolid solid = random_mixed_sinks(seed);
