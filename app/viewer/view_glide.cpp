@@ -11,7 +11,7 @@ bool looks_from_elsewhere(const Action& action)
     return std::holds_alternative<LookFrom>(action) || std::holds_alternative<LookFromSide>(action) ||
            std::holds_alternative<FitView>(action) || std::holds_alternative<FlyTo>(action) ||
            std::holds_alternative<FlyToVertex>(action) || std::holds_alternative<HideSpot>(action) ||
-           std::holds_alternative<ShowFault>(action);
+           std::holds_alternative<HideFault>(action) || std::holds_alternative<ShowFault>(action);
 }
 
 } // namespace

@@ -53,7 +53,7 @@ void crack_line(Frame& frame)
     const ImVec4 colour = is_old(frame.state, View::part)  ? p.muted
                           : verdict.kind == Kind::cracks   ? p.error
                           : verdict.kind == Kind::at_limit ? p.warning
-                          : verdict.kind == Kind::safe     ? p.good
+                          : verdict.kind == Kind::safe     ? (verdict.sure ? p.good : p.warning)
                                                            : ImGui::GetStyleColorVec4(ImGuiCol_Text);
     coloured(colour, verdict.text);
     tooltip(

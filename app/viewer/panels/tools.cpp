@@ -218,6 +218,8 @@ void shortcuts(Frame& frame)
             frame.ui.animation->cancelling = true;
         else if (frame.state.spot)
             frame.actions.push(HideSpot{});
+        else if (frame.state.fault)
+            frame.actions.push(HideFault{});
         else
             frame.actions.push(ClearSelection{});
     }

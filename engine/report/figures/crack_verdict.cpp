@@ -34,6 +34,21 @@ std::string place(const TriMesh& part, int face, LengthUnit lengths)
     return fmt::format("{:.4g}, {:.4g}, {:.4g} {}", at[0] + 0., at[1] + 0., at[2] + 0., length_word(lengths));
 }
 
+/// Why the result is not that of all that was asked for; empty: it is.
+std::string weakness_of(const SolveReport& report)
+{
+    if (report.whole())
+        return "";
+    if (!report.converged)
+        return "The result has not converged";
+    if (report.process_share < 1)
+        return fmt::format("The sheet bears {:.3g} % of the tools' forces, of which the result is",
+                           100 * report.process_share);
+    if (report.system == SolvedSystem::continued)
+        return fmt::format("The hardening curve was continued from the strain {:.2f} on", report.trusted_strain);
+    return fmt::format("Equilibrium was relaxed at {}", counted(report.relaxed_vertices, "vertex", "vertices"));
+}
+
 } // namespace
 
 CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
@@ -77,8 +92,10 @@ CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
                                     counted(untold, "face", "faces"));
     if (above == 0 && near == 0)
         verdict.text += " Bending strains at radii are not included.";
-    if (!session.blank->report.whole())
-        verdict.text += " The result has not converged, so this is a guess.";
+    const std::string weakness = weakness_of(session.blank->report);
+    if (!weakness.empty())
+        verdict.text += fmt::format(" {}, so this is a guess.", weakness);
+    verdict.sure = faces(Zone::strong_thickening) == 0 && untold == 0 && weakness.empty();
     return verdict;
 }
 

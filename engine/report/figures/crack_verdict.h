@@ -18,6 +18,9 @@ struct CrackVerdict {
     double share = 0; ///< greatest engineering major strain over that of the curve at the same
                       ///< minor strain
     int face = -1;    ///< where that is
+    bool sure =
+        true; ///< every face is judged, none thickens so much that it may wrinkle, and the result is of all that was
+              ///< asked for
     std::string text; ///< a sentence or two
 };
 

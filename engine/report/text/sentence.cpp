@@ -11,7 +11,8 @@ std::string as_sentence(std::string text)
     const std::string_view first = std::string_view(text).substr(0, end);
     const bool name = (end < text.size() && text[end] == ':') || first.find('/') != first.npos ||
                       first.substr(0, std::max<size_t>(end, 1) - 1).find('.') != first.npos;
-    if (!first.empty() && !name && text[0] >= 'a' && text[0] <= 'z')
+    const bool symbol = end == 1 && std::string_view(text).substr(end).starts_with(" = "); // "n = 0.25"
+    if (!first.empty() && !name && !symbol && text[0] >= 'a' && text[0] <= 'z')
         text[0] = char(text[0] - 'a' + 'A');
     return text;
 }

@@ -1,7 +1,11 @@
 #include "engine/report/figures/crack_verdict.h"
 
 #include <cmath>
+#include <functional>
 #include <gmock/gmock.h>
+#include <string>
+#include <utility>
+#include <vector>
 
 using testing::HasSubstr;
 
@@ -47,6 +51,7 @@ TEST(CrackVerdict, ASafePartSaysHowMuchOfTheLimitItUses)
     EXPECT_EQ(verdict.face, 0);
     EXPECT_THAT(verdict.text, HasSubstr("No cracks expected: the greatest strain is 62 % of the forming limit."));
     EXPECT_THAT(verdict.text, testing::EndsWith(" Bending strains at radii are not included."));
+    EXPECT_TRUE(verdict.sure);
 }
 
 TEST(CrackVerdict, BelowTheLimitByLessThanTheMarginIsAtTheLimit)
@@ -77,6 +82,8 @@ TEST(CrackVerdict, FacesThatThickenMoreThanAllowedMayWrinkle)
     session.limits = limits;
     EXPECT_THAT(crack_verdict(session).text,
                 HasSubstr("Wrinkles are likely: 1 face thickens by more than the allowed 10 %."));
+    EXPECT_EQ(crack_verdict(session).kind, CrackVerdict::Kind::safe);
+    EXPECT_FALSE(crack_verdict(session).sure);
 }
 
 TEST(CrackVerdict, WithoutACurveItSaysThatItCannotTell)
@@ -95,12 +102,37 @@ TEST(CrackVerdict, SaysWhatItDoesNotKnow)
     auto limits = std::make_shared<LimitsResult>(*session.limits);
     limits->zones.distance[1] = std::nan("");
     session.limits = limits;
-    auto blank = std::make_shared<FlattenResult>(*session.blank);
-    blank->report.system = SolvedSystem::relaxed;
-    session.blank = blank;
     EXPECT_THAT(crack_verdict(session).text,
                 HasSubstr("It cannot be judged for 1 face, whose sheet has no forming limit curve."));
-    EXPECT_THAT(crack_verdict(session).text, HasSubstr("The result has not converged, so this is a guess."));
+    EXPECT_FALSE(crack_verdict(session).sure);
+}
+
+/// In words that the step of the solver does not contradict.
+TEST(CrackVerdict, OfAResultThatIsNotOfAllThatWasAskedForIsAGuess)
+{
+    const auto verdict_of = [](const std::function<void(SolveReport&)>& change) {
+        Session session = stretched(0.1, 0.1, 0.40);
+        auto blank = std::make_shared<FlattenResult>(*session.blank);
+        change(blank->report);
+        session.blank = blank;
+        return crack_verdict(session);
+    };
+    EXPECT_TRUE(verdict_of([](SolveReport&) {}).sure);
+    const std::vector<std::pair<std::function<void(SolveReport&)>, std::string>> weak = {
+        {[](SolveReport& report) { report.converged = false, report.system = SolvedSystem::energy; },
+         "The result has not converged, so this is a guess."},
+        {[](SolveReport& report) { report.process_share = 0.25; },
+         "The sheet bears 25 % of the tools' forces, of which the result is, so this is a guess."},
+        {[](SolveReport& report) { report.system = SolvedSystem::continued, report.trusted_strain = 0.2; },
+         "The hardening curve was continued from the strain 0.20 on, so this is a guess."},
+        {[](SolveReport& report) { report.system = SolvedSystem::relaxed, report.relaxed_vertices = 3; },
+         "Equilibrium was relaxed at 3 vertices, so this is a guess."}};
+    for (const auto& [change, words] : weak) {
+        const CrackVerdict verdict = verdict_of(change);
+        EXPECT_EQ(verdict.kind, CrackVerdict::Kind::safe);
+        EXPECT_FALSE(verdict.sure) << words;
+        EXPECT_THAT(verdict.text, HasSubstr(words));
+    }
 }
 
 } // namespace

@@ -66,9 +66,11 @@ TEST_F(RefusedPart, IsShownWithItsFaultsAndTheViewGoesToEach)
 
     const int pieces = finding(Fault::several_components);
     ASSERT_GE(pieces, 0);
+    const auto before = state.view.camera;
     apply(ShowFault{pieces, 0});
     ASSERT_TRUE(state.fault);
     EXPECT_EQ(state.fault->place, place_of(pieces));
+    EXPECT_NE(state.view.camera, before);
     const glm::dvec3 target = state.view.camera[size_t(View::part)].target;
     EXPECT_EQ(Eigen::Vector3d(target.x, target.y, target.z), place_of(pieces));
     EXPECT_EQ(scene(View::part, state, cache).labels.size(), 1u);
@@ -77,11 +79,16 @@ TEST_F(RefusedPart, IsShownWithItsFaultsAndTheViewGoesToEach)
     EXPECT_EQ(errors(), 2); // there is one place only
     apply(ShowFault{int(state.refused->doctor.findings.size()), 0});
     EXPECT_EQ(errors(), 3);
-    const auto camera = state.view.camera;
+    apply(ShowFault{pieces, 0}); // from place to place the way back is that of the first one
     apply(HideFault{});
     EXPECT_FALSE(state.fault);
     EXPECT_TRUE(scene(View::part, state, cache).labels.empty());
-    EXPECT_EQ(state.view.camera, camera);
+    EXPECT_EQ(state.view.camera, before);
+    apply(ShowFault{pieces, 0});
+    apply(LookFrom{View::part, StandardView::top});
+    const auto moved = state.view.camera;
+    apply(HideFault{});
+    EXPECT_EQ(state.view.camera[size_t(View::part)], moved[size_t(View::part)]) << "a view that was moved on stays";
     for (const Message& message : state.messages)
         EXPECT_EQ(message.text.find("--"), std::string::npos) << message.text << ": there is no command line here";
 }

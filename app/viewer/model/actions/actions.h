@@ -434,7 +434,7 @@ struct FlyToVertex {
 struct ShowFault {
     int finding = 0, entry = 0;
 };
-struct HideFault {}; ///< "hide_fault": its mark goes, the views stay
+struct HideFault {}; ///< "hide_fault": its mark goes, and the views that were not moved go back
 /// "show_refused": the view of the part shows the mesh of the file that was refused while the part
 /// was open.
 struct ShowRefused {};

@@ -173,12 +173,15 @@ struct ViewerModel::Apply {
     void operator()(const LookFromSide& action);
     void operator()(const FlyTo& action);
     void operator()(const HideSpot&);
+    /// @param before  of a place that the views went to
+    /// @param since   there; a view that was moved on stays
+    void go_back(const std::array<Camera, 4>& before, const std::array<Camera, 4>& since);
     void operator()(const FlyToVertex& action);
     /// Every view shows the middle of some vertices of the part.
     /// @param at_least  mm, what the views show
     void look_at(const std::vector<int>& vertices, double at_least = 0);
     void operator()(const ShowFault& action);
-    void operator()(const HideFault&) { state.fault.reset(); }
+    void operator()(const HideFault&);
     void operator()(const ShowRefused&);
     void operator()(const CloseRefused&);
     void operator()(const KeepReference& action);

@@ -87,10 +87,23 @@ void ViewerModel::Apply::operator()(const HideSpot&)
 {
     if (!state.spot)
         return;
-    for (const View view : all_views)
-        if (state.view.camera[size_t(view)] == state.spot->since[size_t(view)])
-            state.view.camera[size_t(view)] = state.spot->before[size_t(view)];
+    go_back(state.spot->before, state.spot->since);
     state.spot.reset();
+}
+
+void ViewerModel::Apply::operator()(const HideFault&)
+{
+    if (!state.fault)
+        return;
+    go_back(state.fault->before, state.fault->since);
+    state.fault.reset();
+}
+
+void ViewerModel::Apply::go_back(const std::array<Camera, 4>& before, const std::array<Camera, 4>& since)
+{
+    for (const View view : all_views)
+        if (state.view.camera[size_t(view)] == since[size_t(view)])
+            state.view.camera[size_t(view)] = before[size_t(view)];
 }
 
 void ViewerModel::Apply::operator()(const FlyToVertex& action)
@@ -134,7 +147,9 @@ void ViewerModel::Apply::operator()(const ShowFault& action)
     constexpr double beyond_any_part = 1e9; // mm
     if (!at.allFinite() || at.cwiseAbs().maxCoeff() > beyond_any_part)
         throw InputError("This place has no coordinates that could be shown.");
-    state.fault = ShownFault{action.finding, action.entry, at};
+    // From place to place the way back leads to where the first one was left.
+    const bool on_the_way = state.fault && state.fault->since == state.view.camera;
+    const std::array<Camera, 4> before = on_the_way ? state.fault->before : state.view.camera;
     const double size = 0.15 * bounding_diagonal(part->mesh);
     for (const View view : all_views) {
         Camera& camera = state.view.camera[size_t(view)];
@@ -145,6 +160,7 @@ void ViewerModel::Apply::operator()(const ShowFault& action)
                 camera.height = std::min(camera.height, size);
         }
     }
+    state.fault = ShownFault{action.finding, action.entry, at, before, state.view.camera};
 }
 
 } // namespace spia::viewer

@@ -87,10 +87,12 @@ inline std::optional<HalfSpace> kept_in(const ViewSettings& settings, View view)
     return view == View::blank ? std::nullopt : kept_by(settings.clip);
 }
 
-/// A place where the mesh of the part is at fault.
+/// A place where the mesh of the part is at fault, to which the views went.
 struct ShownFault {
     int finding = 0, entry = 0;                      ///< of the doctor's report, of Finding::place
     Eigen::Vector3d place = Eigen::Vector3d::Zero(); ///< mm
+    std::array<Camera, 4> before = {};               ///< of the views, to go back to
+    std::array<Camera, 4> since = {};                ///< likewise, there: one that was moved on stays
 };
 
 /// A face that the views went to: it has a mark of its own, what is selected stays.

@@ -74,7 +74,7 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
     ImGui::PopStyleVar();
     if (here)
         ImGui::PopStyleColor();
-    tooltip(here ? "Removes the marker" : "Zooms to the place and marks it");
+    tooltip(here ? "Removes the marker and goes back; so does Escape" : "Zooms to the place and marks it");
     if (!here || places == 1)
         return;
     ImGui::SameLine(0, 8 * frame.ui.scale);
