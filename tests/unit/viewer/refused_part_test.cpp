@@ -85,7 +85,7 @@ TEST_F(RefusedPart, IsShownWithItsFaultsAndTheViewGoesToEach)
     EXPECT_TRUE(scene(View::part, state, cache).labels.empty());
     EXPECT_EQ(state.view.camera, before);
     apply(ShowFault{pieces, 0});
-    apply(LookFrom{View::part, StandardView::top});
+    apply(LookFrom{View::part, StandardView::left});
     const auto moved = state.view.camera;
     apply(HideFault{});
     EXPECT_EQ(state.view.camera[size_t(View::part)], moved[size_t(View::part)]) << "a view that was moved on stays";
