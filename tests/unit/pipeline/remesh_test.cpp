@@ -28,14 +28,13 @@ std::filesystem::path cad_file(const char* name)
     return std::filesystem::path(SPIA_SOURCE_DIR) / "../shared/data/cad" / name;
 }
 
-Session solved(const std::filesystem::path& file, bool remeshed, Stage last = Stage::solve,
-               std::optional<double> tolerance = {})
+Session solved(const std::filesystem::path& file, bool remeshed, Stage last = Stage::solve)
 {
     Session session;
     session.file = file;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     if (remeshed)
-        session.options.read.remesh.emplace().tolerance = tolerance;
+        session.options.read.remesh.emplace();
     else
         session.options.read.cad.keep_triangles = true;
     for (const Stage stage : chain) {
@@ -80,9 +79,7 @@ TEST_P(RemeshedCad, FlattensToTheSameBlankWithGoodTriangles)
     const auto file = cad_file(GetParam());
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << file << " is not there";
-    const Session given = solved(file, false);
-    // The usual tolerance: that of the fan bracket's bends takes 340 000 triangles.
-    const Session remeshed = solved(file, true, Stage::solve, bounding_diagonal(given.part->mesh) / 1000);
+    const Session given = solved(file, false), remeshed = solved(file, true);
     const Remeshed& how = *remeshed.part->remeshed;
     EXPECT_LT(how.before.least_angle, 1 * degrees);
     EXPECT_GT(how.after.least_angle_of_99, 30 * degrees);
