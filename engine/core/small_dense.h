@@ -24,7 +24,8 @@ template <class Expression> auto eigen_pairs(const Eigen::MatrixBase<Expression>
 Eigen::Matrix2d with_least_eigenvalue(const Eigen::Matrix2d& symmetric, double floor);
 Eigen::Matrix4d with_least_eigenvalue(const Eigen::Matrix4d& symmetric, double floor);
 
-/// x of least |a x - b|, by QR with pivots: of columns that depend on each other some have no share.
+/// x of least |a x - b|, by QR with pivots: of columns that depend on each other some have no
+/// share.
 Eigen::Vector3d least_squares(const Eigen::MatrixX3d& a, const Eigen::VectorXd& b);
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 

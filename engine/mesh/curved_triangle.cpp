@@ -6,8 +6,8 @@
 namespace spia {
 namespace {
 
-/// How much longer than its chord the way is over a surface that the chord meets at such angles, radians: of an arc
-/// both are half of what it turns, with opposite signs.
+/// How much longer than its chord the way is over a surface that the chord meets at such angles,
+/// radians: of an arc both are half of what it turns, with opposite signs.
 /// @returns nothing where that is too much
 std::optional<double> longer(double from, double to)
 {
@@ -66,8 +66,9 @@ std::optional<Eigen::Matrix<double, 2, 3>> CurvedTriangle::laid() const
     constexpr double alike = 0.25; // of needles no height is left of the difference of their sides
     if (!(std::abs(length[0] * height / before - 1) <= alike))
         return std::nullopt;
-    // A triangle of shortest ways on a surface of curvature K has 1 + K (a^2 + b^2 + c^2) / 24 times the area of the
-    // plane one with these sides. [Gauss 1827] K x area is that of the triangle of the normals.
+    // A triangle of shortest ways on a surface of curvature K has 1 + K (a^2 + b^2 + c^2) / 24
+    // times the area of the plane one with these sides. [Gauss 1827] K x area is that of the
+    // triangle of the normals.
     const Eigen::Vector3d p = normal.col(1) - normal.col(0), q = normal.col(2) - normal.col(0);
     const double turned = normal.rowwise().mean().dot(p.cross(q)), area = length[0] * height;
     constexpr double most = 0.1;

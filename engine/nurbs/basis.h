@@ -28,7 +28,8 @@ BasisValues basis(const std::vector<double>& knots, int degree, double u);
 /// The distinct knots of the domain in rising order: the borders of its spans.
 std::vector<double> span_borders(const std::vector<double>& knots, int degree);
 
-/// Knots, or borders of spans, from 0 to 1 of a curve that runs the other way. Exact for dyadic ones.
+/// Knots, or borders of spans, from 0 to 1 of a curve that runs the other way. Exact for dyadic
+/// ones.
 std::vector<double> mirrored(std::vector<double> knots);
 
 } // namespace spia

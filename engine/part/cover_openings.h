@@ -5,8 +5,8 @@
 
 namespace spia {
 
-/// A part whose surface is closed but for a few missing triangles and slits, with these covered and a finding
-/// that says so; nothing if it is another one. CAD faces are sewn by their reader.
+/// A part whose surface is closed but for a few missing triangles and slits, with these covered and
+/// a finding that says so; nothing if it is another one. CAD faces are sewn by their reader.
 std::optional<PartFile> with_openings_covered(const PartFile& part);
 
 /// mm, the mean width of the widest opening of such a part; nothing if it is another one.

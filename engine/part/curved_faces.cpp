@@ -27,8 +27,8 @@ double longest_edge(const Eigen::Matrix3d& corner)
     return longest;
 }
 
-/// Where a vertex lies on the triangles that were given, seen from one of the faces around it: at a sharp edge it is
-/// on that side.
+/// Where a vertex lies on the triangles that were given, seen from one of the faces around it: at a
+/// sharp edge it is on that side.
 struct GivenPlace {
     CurvedTriangle triangle;
     Eigen::Vector3d barycentric;
@@ -83,7 +83,8 @@ private:
     }
 };
 
-/// mm, per vertex, to the surface; zero where it is not known, or faces around the vertex have it otherwise.
+/// mm, per vertex, to the surface; zero where it is not known, or faces around the vertex have it
+/// otherwise.
 Eigen::Matrix3Xd ways(const TriMesh& mesh, const std::vector<std::array<GivenPlace, 3>>& place)
 {
     Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, mesh.vertices());

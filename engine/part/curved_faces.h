@@ -5,13 +5,13 @@
 
 namespace spia {
 
-/// Per triangle of a part the normals of its CAD face at the corners, to the side of the triangle; zero where a corner
-/// is not one of the face's triangle, or beside it, as at what was made anew.
+/// Per triangle of a part the normals of its CAD face at the corners, to the side of the triangle;
+/// zero where a corner is not one of the face's triangle, or beside it, as at what was made anew.
 std::vector<Eigen::Matrix3f> corner_normals(const PartFile& part, const PolygonSoup& soup,
                                             const CornerNormals& normals);
 
-/// Those of a remeshed part, from the triangles that it had; and its vertices, which the remesher put on these, where
-/// the CAD faces are. A vertex of a sharp edge stays.
+/// Those of a remeshed part, from the triangles that it had; and its vertices, which the remesher
+/// put on these, where the CAD faces are. A vertex of a sharp edge stays.
 void onto_faces(PartFile& part);
 
 /// The lengths that triangles have on the CAD faces over them.

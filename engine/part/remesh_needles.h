@@ -6,7 +6,8 @@
 
 namespace spia {
 
-/// Of a part that unrolls needles say nothing of its strains: a note takes the place of the finding.
+/// Of a part that unrolls needles say nothing of its strains: a note takes the place of the
+/// finding.
 PartFile excuse_needles(PartFile part);
 
 /// Needles on CAD faces. On a part that unrolls they are strips along its straight lines, as they

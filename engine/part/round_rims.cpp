@@ -40,8 +40,8 @@ public:
     {
     }
 
-    /// The turn from the first end of a triangle's edge to the other; its angle is 0 where it is no chord of an arc
-    /// about which the sheet turns there.
+    /// The turn from the first end of a triangle's edge to the other; its angle is 0 where it is no
+    /// chord of an arc about which the sheet turns there.
     Turn turn(int f, int k) const
     {
         Turn none{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 0};

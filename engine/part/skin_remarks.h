@@ -10,8 +10,8 @@
 #include "engine/mesh/solid/stated_surface.h"
 #include "engine/part/part_file.h"
 
-// What users are told of a solid whose skin or middle surface is laid flat. Each is empty where there is
-// nothing to tell.
+// What users are told of a solid whose skin or middle surface is laid flat. Each is empty where
+// there is nothing to tell.
 namespace spia {
 
 /// A doubt that says why it is a hollow body, if it may be another thing.

@@ -5,7 +5,8 @@ namespace spia {
 
 struct PartFile;
 
-/// Whether numbers are those of faces and vertices of the file that have been replaced; CAD parts have new ones.
+/// Whether numbers are those of faces and vertices of the file that have been replaced; CAD parts
+/// have new ones.
 bool numbered_as_read(const PartFile& part);
 
 /// The vertices of the mesh that are called by a number of the file, in rising order; copies along

@@ -6,8 +6,8 @@
 
 namespace spia::viewer {
 
-/// What panels tell the model at once, without an action that could be undone or recorded: the mouse
-/// over a view, the size of a view, a message.
+/// What panels tell the model at once, without an action that could be undone or recorded: the
+/// mouse over a view, the size of a view, a message.
 class ViewEvents {
 public:
     ViewEvents() = default; ///< of a picture: nobody is told

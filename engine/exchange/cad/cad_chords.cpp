@@ -52,8 +52,8 @@ Areas areas_of(std::span<const TopoDS_Face> faces)
 
 bool curves_twice(const Areas& areas) { return areas.curved_twice > next_to_nothing * areas.all; }
 
-/// Sheet that is rolled to a cone, not drawn to one with radii beside it; what is sunk into holes is conical, too, but
-/// small.
+/// Sheet that is rolled to a cone, not drawn to one with radii beside it; what is sunk into holes
+/// is conical, too, but small.
 bool is_conical(const Areas& areas)
 {
     constexpr double large = 0.05; // of the area of all faces
@@ -75,8 +75,8 @@ gp_Vec normal_at(const TopoDS_Edge& edge, const TopoDS_Face& face)
     return normal.Magnitude() > 0 ? normal.Normalized() : gp_Vec{};
 }
 
-/// Whether a plane face has a long one that is no line and no circle, with a wall square to it: where
-/// other walls cut the sheet the border is put right later (onto_projection()).
+/// Whether a plane face has a long one that is no line and no circle, with a wall square to it:
+/// where other walls cut the sheet the border is put right later (onto_projection()).
 bool has_free_border(std::span<const TopoDS_Face> faces, double diagonal)
 {
     constexpr double longest = 0.25, square = 0.02; // of the diagonal; sine of 1 degree

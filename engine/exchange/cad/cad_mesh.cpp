@@ -28,8 +28,8 @@
 namespace spia {
 namespace {
 
-/// The line along v that the curve of an edge on a face is but for rounding, also one that is stated
-/// as a spline; null if it is another.
+/// The line along v that the curve of an edge on a face is but for rounding, also one that is
+/// stated as a spline; null if it is another.
 Handle(Geom2d_Curve) along_v(const TopoDS_Edge& edge, const TopoDS_Face& face)
 {
     double from = 0, to = 0;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double spline_off = 1e-4; // mm, that a spline is off the plane or cylinder it was made from
 
-/// The cylinder that a face of another kind lies on, by points and normals all over it: conversion to
-/// rational splines leaves none that ShapeCustom_Surface knows.
+/// The cylinder that a face of another kind lies on, by points and normals all over it: conversion
+/// to rational splines leaves none that ShapeCustom_Surface knows.
 StatedSurface sampled_cylinder(const TopoDS_Face& face, const Handle(Geom_Surface) & surface)
 {
     constexpr int each_way = 9;

@@ -36,9 +36,9 @@ public:
     Simplifier(LayoutMesh mesh, const SimplifyOptions& options, const Progress& progress)
         : mesh_(std::move(mesh)), options_(options), progress_(progress), draw_(options.seed)
     {
-        // Cells of grids looked at for each face of the start: 1 to 3 s for 500 faces. With four times
-        // as much the layouts of five parts had an eighth fewer patches, with a quarter of it a
-        // quarter more.
+        // Cells of grids looked at for each face of the start: 1 to 3 s for 500 faces. With four
+        // times as much the layouts of five parts had an eighth fewer patches, with a quarter of it
+        // a quarter more.
         constexpr double per_face = 80'000, more_faces = 50; // a small one is searched as a larger one
         most_work_ = options.effort * per_face * (mesh_.alive() + more_faces);
     }

@@ -44,8 +44,8 @@ Rows single_corners(const Eigen::VectorXd& defect)
     return rows;
 }
 
-/// Those that edges join: rounded bends of walls that are joined meet along a mitre, which holds what
-/// lacks little by little. A ring of them is the foot of a collar, which no cut lets unroll.
+/// Those that edges join: rounded bends of walls that are joined meet along a mitre, which holds
+/// what lacks little by little. A ring of them is the foot of a collar, which no cut lets unroll.
 /// @returns nothing where one is a ring, or forks
 Rows mitres(const EdgeGraph& graph, const Eigen::VectorXd& defect)
 {
@@ -54,8 +54,8 @@ Rows mitres(const EdgeGraph& graph, const Eigen::VectorXd& defect)
     for (int e = 0; e < int(graph.edge.size()); ++e)
         if (std::abs(defect[graph.edge[size_t(e)].low]) > holds && std::abs(defect[graph.edge[size_t(e)].high]) > holds)
             edges.push_back(e);
-    // The shortest edges that join them all: a chord over a vertex of a row is longer, and what leads from
-    // one row to another, along a bend, much longer.
+    // The shortest edges that join them all: a chord over a vertex of a row is longer, and what
+    // leads from one row to another, along a bend, much longer.
     std::ranges::stable_sort(edges, {}, [&](int e) { return graph.edge[size_t(e)].length; });
     DisjointSets together(size_t(defect.size()));
     std::erase_if(edges, [&](int e) {

@@ -47,8 +47,8 @@ void mend_flat_triangles(MendedSurface& s, const Tally& dropped, DoctorReport& r
                 repair.dropped + dropped.count),
             "");
     }
-    // Beside a small hole in long sheet they can be right, and all that is flat there is needles: of a
-    // hole of 3 mm in a profile of 6 m. They stay, as slivers.
+    // Beside a small hole in long sheet they can be right, and all that is flat there is needles:
+    // of a hole of 3 mm in a profile of 6 m. They stay, as slivers.
     constexpr double nothing = 1e-10; // of the longest edge: rounding in double precision
     std::erase_if(repair.left, [&](int f) { return !is_flat(s.triangle[size_t(f)], s.soup.position, nothing); });
     if (!repair.left.empty()) {

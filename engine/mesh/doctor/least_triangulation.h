@@ -13,12 +13,13 @@ struct Triangulation {
     std::vector<std::array<int, 3>> triangles; ///< n - 2, in the direction of the polygon
 };
 
-/// Of all ways to divide a polygon into triangles the one that costs least (G. Klincsek, Minimal triangulations of polygonal domains,
-/// 1980). The work grows with the third power of the corners.
+/// Of all ways to divide a polygon into triangles the one that costs least (G. Klincsek, Minimal
+/// triangulations of polygonal domains, 1980). The work grows with the third power of the corners.
 /// @param side      cost of a side of the polygon, beside which there is no triangle
 /// @param chord     whether two triangles may meet in the line between corners i < j
 /// @param triangle  cost of the triangle of corners i < k < j
-/// @param join      cost of a triangle and of what is on both its other sides, together: their sum, or the largest
+/// @param join      cost of a triangle and of what is on both its other sides, together: their sum,
+/// or the largest
 template <typename Chord, typename Triangle, typename Join>
 Triangulation least_triangulation(size_t n, double side, Chord chord, Triangle triangle, Join join)
 {

@@ -20,8 +20,10 @@ double area_of(const TriMesh& mesh, int a, int b, int c)
     return (mesh.position.col(b) - p).cross(mesh.position.col(c) - p).norm() / 2;
 }
 
-/// Triangles between the vertices of a closed row that have the least area together; the cost is that area.
-/// @param used  edges of the surface from the smaller vertex to the larger: no inner edge of the cover may be one
+/// Triangles between the vertices of a closed row that have the least area together; the cost is
+/// that area.
+/// @param used  edges of the surface from the smaller vertex to the larger: no inner edge of the
+/// cover may be one
 Triangulation least_cover(const TriMesh& mesh, const std::vector<int>& row, const std::map<Edge, int>& used)
 {
     return least_triangulation(

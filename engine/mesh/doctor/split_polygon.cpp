@@ -125,8 +125,8 @@ Triangles clip_ears(const std::vector<Vector2d>& p)
     return triangles;
 }
 
-/// Of a polygon that does not cross itself, those whose least angle is largest. Triangles none of which is turned over do not
-/// overlap then.
+/// Of a polygon that does not cross itself, those whose least angle is largest. Triangles none of
+/// which is turned over do not overlap then.
 Triangles best_triangles(const std::vector<Vector2d>& p)
 {
     const Triangulation best = least_triangulation(

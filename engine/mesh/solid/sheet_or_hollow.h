@@ -20,7 +20,8 @@ enum class ClosedSurface {
 ///   body.
 /// - Bent ones without holes: below 0.25 a sheet (closed ducts have 0.3 to 0.5), to 0.5 perhaps.
 /// - With holes through them: below 0.4 a sheet, to 0.5 perhaps.
-/// - Plain plates whose skins go over into each other by rounded edges are hollow bodies beyond 0.08.
+/// - Plain plates whose skins go over into each other by rounded edges are hollow bodies beyond
+/// 0.08.
 ClosedSurface sheet_or_hollow(const ThinSolid& sheet);
 
 /// The thickness over the width, see there.

@@ -49,8 +49,8 @@ double swept_area(const Profile& profile)
     return 2 * std::numbers::pi * sum * step;
 }
 
-/// mm2, of the middle of a sheet that is open where its walls are upright and has no hole: its curvature in sum is a
-/// full turn. [Steiner]
+/// mm2, of the middle of a sheet that is open where its walls are upright and has no hole: its
+/// curvature in sum is a full turn. [Steiner]
 double area_from_volume(const TopoDS_Shape& shape, double t)
 {
     GProp_GProps properties;

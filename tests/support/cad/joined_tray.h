@@ -3,7 +3,8 @@
 
 namespace spia::shapes {
 
-/// A tray whose walls are joined at sharp corners, welded say, and bent up from the floor with a radius.
+/// A tray whose walls are joined at sharp corners, welded say, and bent up from the floor with a
+/// radius.
 struct JoinedTray {
     double length = 100, width = 70, height = 20; ///< mm, outside
     double thickness = 1, radius = 1.5;           ///< mm, of the sheet; inside of the bends

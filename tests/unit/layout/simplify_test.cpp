@@ -167,7 +167,8 @@ void expect_sound(const Layout& layout, const Divided& sheet)
     EXPECT_EQ(index_sum(layout), 4 * (1 - holes));
     EXPECT_EQ(loops_with_few_vertices(layout), 0);
     EXPECT_GT(least_cell(layout), 0);
-    // As many patches as the vertices ask for: F = inner vertices + border vertices / 2 + holes - 1.
+    // As many patches as the vertices ask for: F = inner vertices + border vertices / 2 + holes -
+    // 1.
     const int border = vertices_on_border(layout), inner = int(layout.vertex.cols()) - border;
     EXPECT_EQ(2 * int(layout.patch.size()), 2 * inner + border + 2 * holes - 2);
 }

@@ -306,7 +306,8 @@ TEST(BrokenEdges, BesideATaperedFlangeDoNotMoveTheEndOfTheBend)
         solid.broken = {t * random.between(0.25, 0.45), false, random.coin(), false, 0, seed % 4 < 2};
         if (seed % 2 == 0)
             solid.broken_too = {t * random.between(0.35, 0.45), true, !solid.broken.left, false, 0, solid.broken.cut};
-        // from a little after the bend on, 15 to 34 degrees: about as much as chords of coarse arcs turn by
+        // from a little after the bend on, 15 to 34 degrees: about as much as chords of coarse arcs
+        // turn by
         const double from = t * random.between(1.1, 3), angle = random.between(0.26, 0.6), run = solid.leg[1] - from,
                      side = 4 * solid.leg[1];
         shapes::Cutout taper;

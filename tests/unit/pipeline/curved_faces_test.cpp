@@ -1,4 +1,5 @@
-// Parts whose CAD faces are curved: what is laid flat has the lengths of these, not of their chords.
+// Parts whose CAD faces are curved: what is laid flat has the lengths of these, not of their
+// chords.
 #include <Eigen/Dense>
 #include <cmath>
 #include <fmt/core.h>

@@ -120,8 +120,8 @@ private:
     ScratchFolder folder_;
 };
 
-/// Milled straight through the first leg, the bend and the flange beside it, whose wall lies the flatter
-/// in the sheet the more it is bent.
+/// Milled straight through the first leg, the bend and the flange beside it, whose wall lies the
+/// flatter in the sheet the more it is bent.
 TEST(Windows, ThatAreCutAlongALegEndWhereTheirWallCrossesTheMiddleOfTheFlange)
 {
     const ScratchFolder folder;

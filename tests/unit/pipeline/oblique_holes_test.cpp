@@ -1,5 +1,5 @@
-// Holes whose walls cross the sheet askew, in its flats: the blank has them where and as they are in
-// the middle of the sheet.
+// Holes whose walls cross the sheet askew, in its flats: the blank has them where and as they are
+// in the middle of the sheet.
 #include <cmath>
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,5 @@
-// STL files of solids whose surface is not closed: triangles are missing, or a corner of one is beside its place.
+// STL files of solids whose surface is not closed: triangles are missing, or a corner of one is
+// beside its place.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

@@ -192,8 +192,8 @@ void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm f
     const PartFile& part = *session.part;
     ASSERT_TRUE(part.solid);
     EXPECT_EQ(part.solid->skin, Skin::middle);
-    // Circles of IGES files are splines within 1e-5 mm, STL files hold single precision; vertices of
-    // chords lie on the circles.
+    // Circles of IGES files are splines within 1e-5 mm, STL files hold single precision; vertices
+    // of chords lie on the circles.
     const double same = form == CadForm::stl ? 1e-4 : form == CadForm::iges ? 1e-5 : 1e-6;
     expect_area(solid, part.mesh);
     std::vector<double> holes, marks, expected_holes, expected_marks;

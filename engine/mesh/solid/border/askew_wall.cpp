@@ -14,7 +14,8 @@ Eigen::Vector3d normal_of(const TriMesh& solid, int f)
     return (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).normalized();
 }
 
-/// Whether an edge goes along the sheet rather than through it: not from skin to skin, however flat.
+/// Whether an edge goes along the sheet rather than through it: not from skin to skin, however
+/// flat.
 bool along_sheet(const TriMesh& solid, int f, int k, const SheetPlane& sheet)
 {
     constexpr double most = 0.4, much = 0.9; // sine of 24 degrees; of the thickness

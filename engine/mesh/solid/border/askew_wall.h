@@ -20,8 +20,8 @@ struct SheetPlane {
 constexpr double square_lean = 0.02; // 1 degree
 
 /// The part of a wall around a triangle that leans alike against the sheet, and whether it crosses
-/// the sheet, askew and chamfered at its ends or not: then the sheet ends where it is in the middle.
-/// What ends at a square wall is a chamfer of that, however deep.
+/// the sheet, askew and chamfered at its ends or not: then the sheet ends where it is in the
+/// middle. What ends at a square wall is a chamfer of that, however deep.
 struct AskewWall {
     std::vector<int> face; ///< of the solid, that triangle first; alone where it does not lean
     bool crosses = false;

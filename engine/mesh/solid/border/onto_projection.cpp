@@ -54,8 +54,8 @@ public:
 
     int count() const { return int(planes_.direction.cols()); }
 
-    /// Whether a plane is to be put onto the projection: flat sheet, none of the chords of a surface
-    /// that turns, and its border beside that of the solid.
+    /// Whether a plane is to be put onto the projection: flat sheet, none of the chords of a
+    /// surface that turns, and its border beside that of the solid.
     bool is_off(int plane, const std::vector<StatedSurface>& under) const
     {
         constexpr double least = 1e-3; // of the area

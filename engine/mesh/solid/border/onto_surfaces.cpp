@@ -208,8 +208,8 @@ private:
             place = start(v) + nearest * (place - start(v));
     }
 
-    /// Where bends of walls that are joined meet, inside of the sheet: half a thickness from both, as near
-    /// as can be to where their tangent planes have it.
+    /// Where bends of walls that are joined meet, inside of the sheet: half a thickness from both,
+    /// as near as can be to where their tangent planes have it.
     void onto_mitre(size_t v)
     {
         const auto& surface = around_[v].surface;

@@ -19,8 +19,8 @@ public:
     /// Keeps a reference to the solid. @param thickness  mm
     SheetSection(const TriMesh& solid, double thickness);
 
-    /// Whether the line through a place so far outwards meets matter. Beyond the border the faces of
-    /// another leg that lies on this one do not count; before it a knife edge at a skin does.
+    /// Whether the line through a place so far outwards meets matter. Beyond the border the faces
+    /// of another leg that lies on this one do not count; before it a knife edge at a skin does.
     bool matter(const BorderPlace& at, double outwards) const;
 
     /// Whether matter begins within the tolerance inwards, if only that of a thin web, and none is
@@ -41,17 +41,17 @@ public:
     /// @param end  mm outwards, where the solid ends
     bool halfway_along_a_wall(const BorderPlace& at, double end, double within) const;
 
-    /// mm outwards, to where a wall that crosses the whole sheet askew crosses its middle; nothing if
-    /// none faces outwards there.
+    /// mm outwards, to where a wall that crosses the whole sheet askew crosses its middle; nothing
+    /// if none faces outwards there.
     std::optional<double> to_askew_wall(const BorderPlace& at) const;
 
-    /// Whether a wall square to the sheet, within half the thickness of a place, faces outwards and lies
-    /// in a plane so near to it: that of a deep chamfer is above or below.
+    /// Whether a wall square to the sheet, within half the thickness of a place, faces outwards and
+    /// lies in a plane so near to it: that of a deep chamfer is above or below.
     bool square_wall(const BorderPlace& at, double within) const;
 
 private:
-    /// Whether the wall of a triangle crosses the sheet askew, or where it is square to that the one that
-    /// it goes over into: of a hole drilled askew two strips are.
+    /// Whether the wall of a triangle crosses the sheet askew, or where it is square to that the
+    /// one that it goes over into: of a hole drilled askew two strips are.
     bool crosses_askew(int face, const SheetPlane& sheet) const;
     /// @param half  mm, of the line
     bool matter(const Eigen::Vector3d& place, const Eigen::Vector3d& half) const;

@@ -79,8 +79,8 @@ std::vector<SlabTriangle> askew(const TriMesh& solid, const std::vector<SlabTria
     return result;
 }
 
-/// What is beyond where such a wall crosses the middle: the part of it that hangs over, and straight
-/// outwards from the middle what a chamfer has left of a corner there.
+/// What is beyond where such a wall crosses the middle: the part of it that hangs over, and
+/// straight outwards from the middle what a chamfer has left of a corner there.
 /// @param into  gets these polygons
 void add_overhanging(const SlabTriangle& wall, double half, std::vector<Eigen::Matrix2Xd>& into)
 {

@@ -43,11 +43,12 @@ public:
     std::optional<Level> around(const StatedSurface& cylinder, const Eigen::Vector3d& a,
                                 const Eigen::Vector3d& b) const;
 
-    /// Whether a triangle is of a cylinder across the sheet, with the normal `up`: no rounding along it.
+    /// Whether a triangle is of a cylinder across the sheet, with the normal `up`: no rounding
+    /// along it.
     bool crosses(int wall, const Eigen::Vector3d& up) const;
 
-    /// Whether the wall of a triangle, or what is beyond its chamfer, goes on from that of a cylinder
-    /// without a corner at a place of the middle surface with the normal `up`.
+    /// Whether the wall of a triangle, or what is beyond its chamfer, goes on from that of a
+    /// cylinder without a corner at a place of the middle surface with the normal `up`.
     bool tangent(int cylinder, int wall, const Eigen::Vector3d& place, const Eigen::Vector3d& up) const;
 
     double gap() const { return gap_; } ///< mm, between CAD faces

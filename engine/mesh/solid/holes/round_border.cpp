@@ -77,7 +77,8 @@ public:
         area_ = facing_.colwise().norm().sum();
     }
 
-    /// Vertices where one cylinder cuts one plane or cylinder, or ends at a wall that it is tangent to.
+    /// Vertices where one cylinder cuts one plane or cylinder, or ends at a wall that it is tangent
+    /// to.
     void place_vertices()
     {
         struct At {
@@ -181,8 +182,8 @@ private:
     }
     Level rim_level(int rim) const { return {surface_[size_t(rim)], surface_[size_t(rim)].radius}; }
 
-    /// Where to look for a vertex's place: where it is; of a chamfered border at the skin, square to the
-    /// wall from its place, since there it ends where the wall does.
+    /// Where to look for a vertex's place: where it is; of a chamfered border at the skin, square
+    /// to the wall from its place, since there it ends where the wall does.
     Eigen::Vector3d start(int v, int wall, const std::pair<Level, Level>& level) const
     {
         const Eigen::Vector3d at_skin = outer_.position.col(v), here = middle_.mesh.position.col(v);

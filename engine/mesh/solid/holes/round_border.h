@@ -7,7 +7,8 @@
 namespace spia {
 
 /// Radians, of a chord of a border. Chords of angle a take a^2/6 of the area of a circle; around a
-/// large one that is to be next to nothing of the sheet, 5e-5, around a small one of itself: 3 degrees.
+/// large one that is to be next to nothing of the sheet, 5e-5, around a small one of itself: 3
+/// degrees.
 /// @param radius mm @param area mm2, of the sheet
 double fine_turn(double radius, double area);
 

@@ -21,8 +21,8 @@ struct SunkHole {
     double diameter = 0;                               ///< mm, of that circle; 0: it is on no plane
     double least = 0;                                  ///< mm, diameter of the hole where it is
                                                        ///< narrowest; 0: it is not round there
-    /// mm, from the skin to there; 0: the skin is not plane; below 0: what is around the hole stands
-    /// up from the skin, a nut say
+    /// mm, from the skin to there; 0: the skin is not plane; below 0: what is around the hole
+    /// stands up from the skin, a nut say
     double depth = 0;
     /// its wall at the skin is square to the sheet; else it is sloped
     bool counterbore = false;

@@ -25,8 +25,8 @@ public:
     }
     ClosestPoint nearest(int v) const { return search_.nearest(position_.col(v), within_); }
     /// mm, of a vertex of a skin with this normal, unit: where the other skin has a hole or a step
-    /// opposite, its nearest place is the rim of that, askew; then square to the skin, or where that is
-    /// bent to the nearest triangle.
+    /// opposite, its nearest place is the rim of that, askew; then square to the skin, or where
+    /// that is bent to the nearest triangle.
     double square_to(int v, const Eigen::Vector3d& normal)
     {
         constexpr double parallel = 1 - 1e-6; // 0.1 degrees
@@ -45,8 +45,8 @@ public:
             known_[size_t(v)] = std::min(nearest(v).distance, within_);
         return known_[size_t(v)];
     }
-    /// mm, of any vertex square to the triangle of the other skin that is nearest: that is askew below
-    /// where the other skin has a hole or a step opposite.
+    /// mm, of any vertex square to the triangle of the other skin that is nearest: that is askew
+    /// below where the other skin has a hole or a step opposite.
     double over_nearest(int v) const
     {
         const ClosestPoint near = nearest(v);

@@ -193,8 +193,8 @@ std::vector<double> outlines(const SurfacePieces& pieces)
     return result;
 }
 
-/// Takes chamfers and roundings of the border off pieces that may be of marks: else one beside a step
-/// would be a wall of that. Of a rounding in a mesh each chord goes over into the next one.
+/// Takes chamfers and roundings of the border off pieces that may be of marks: else one beside a
+/// step would be a wall of that. Of a rounding in a mesh each chord goes over into the next one.
 void leave_borders(const SurfacePieces& pieces, const std::vector<PieceSide>& side, const std::vector<char>& main,
                    PieceSide skin, std::vector<char>& level)
 {
@@ -253,9 +253,9 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
             together.join(c.a, c.b);
     struct Group {
         double along_skin = 0, along_rim = 0, smoothly = 0; ///< mm; the last one of the first
-        /// off: some vertex is not one of the skin, and can be moved to it; floor: a triangle that looks
-        /// as the skin does has one that is not at the rim either, or is level below it, as none of a
-        /// chamfer does
+        /// off: some vertex is not one of the skin, and can be moved to it; floor: a triangle that
+        /// looks as the skin does has one that is not at the rim either, or is level below it, as
+        /// none of a chamfer does
         bool floor = false, off = false;
     };
     std::map<int, Group> groups;

@@ -29,9 +29,8 @@ struct SheetMark {
 /// one) for those that keep as far from the other skin as the thickness, but for deepest_mark.
 /// Those that hang together are a mark if they reach the main part of the skin along a sharp edge,
 /// and either have a floor or keep away from the outline of the sheet; bends and chamfers are none.
-/// @param normal  per triangle its area vector, outwards; @param flipped -1 if the triangles are seen
-/// from inside; @param side per piece: walls of marks
-/// become part of their skin
+/// @param normal  per triangle its area vector, outwards; @param flipped -1 if the triangles are
+/// seen from inside; @param side per piece: walls of marks become part of their skin
 std::vector<SheetMark> find_marks(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, double flipped,
                                   const SurfacePieces& pieces, std::vector<PieceSide>& side, double thickness);
 

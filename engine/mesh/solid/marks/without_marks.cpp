@@ -287,8 +287,9 @@ private:
             target_[size_t(at.v)] = over;
     }
 
-    /// A triangle of the skin that lies on the surface that one of a floor is put back into; itself:
-    /// none is known to. Whoever asks what it lies on, or on which face, is to be told that.
+    /// A triangle of the skin that lies on the surface that one of a floor is put back into;
+    /// itself: none is known to. Whoever asks what it lies on, or on which face, is to be told
+    /// that.
     int on_skin(int f) const
     {
         if (!is_floor(f) || surface_.empty() || surface_[size_t(f)].kind == StatedSurface::Kind::other)

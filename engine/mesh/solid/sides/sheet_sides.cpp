@@ -140,8 +140,8 @@ std::vector<int> touched_sides(const SurfacePieces& pieces, const PieceSides& si
 }
 
 /// Pieces that are not sure, in groups across which the surface goes on smoothly: settled by what a
-/// group touches. A chamfer hands on which skin it is at: the rounding of one skin and the wall that
-/// ends at a chamfer of the other are the border's.
+/// group touches. A chamfer hands on which skin it is at: the rounding of one skin and the wall
+/// that ends at a chamfer of the other are the border's.
 /// @returns whether one was
 bool settle_groups(const SurfacePieces& pieces, const PieceShares& share, PieceSides& side)
 {
