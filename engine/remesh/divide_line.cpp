@@ -15,9 +15,44 @@ double distance_to_chord(const Eigen::Vector3d& a, const Eigen::Vector3d& b, con
     return (a + t * along - point).norm();
 }
 
+/// What the sizes ask for along a segment.
+struct Run {
+    std::vector<double> share = {0}, pieces = {0}; // of the way so far, and as many edges; both increase
+};
+
+Run run_along(const TriMesh& mesh, int a, int b, const SizeField& size)
+{
+    const double length = (mesh.position.col(b) - mesh.position.col(a)).norm();
+    constexpr double step = 0.5; // of an edge
+    Run run;
+    for (double done = 0; done < length;) {
+        const double way = std::min(step * size.between(a, b, done / length), length - done);
+        const double asked = size.between(a, b, (done + way / 2) / length);
+        done = done + way < length ? done + way : length;
+        run.share.push_back(done / length);
+        run.pieces.push_back(run.pieces.back() + way / asked);
+    }
+    return run;
+}
+
+/// Shares of the way that divide it into as many pieces, each with as much of what is asked for.
+std::vector<double> cuts_of(const Run& run, int pieces)
+{
+    std::vector<double> result;
+    size_t i = 1;
+    for (int k = 1; k < pieces; ++k) {
+        const double wanted = run.pieces.back() * k / pieces;
+        while (run.pieces[i] < wanted)
+            ++i;
+        const double within = (wanted - run.pieces[i - 1]) / (run.pieces[i] - run.pieces[i - 1]);
+        result.push_back(run.share[i - 1] + within * (run.share[i] - run.share[i - 1]));
+    }
+    return result;
+}
+
 } // namespace
 
-LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, const Eigen::VectorXd& size,
+LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, const SizeField& size,
                          const Eigen::VectorXd& sagitta, const Progress& progress)
 {
     constexpr double longest_chord = 1.4; // of the size asked for
@@ -25,7 +60,7 @@ LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, cons
     const auto at = [&](size_t i) -> Eigen::Vector3d { return mesh.position.col(line[i]); };
     std::vector<double> along(n, 0); // in units of the size asked for
     for (size_t i = 1; i < n; ++i)
-        along[i] = along[i - 1] + (at(i) - at(i - 1)).norm() * 2 / (size[line[i - 1]] + size[line[i]]);
+        along[i] = along[i - 1] + run_along(mesh, line[i - 1], line[i], size).pieces.back();
     std::vector<double> cost(n, std::numeric_limits<double>::infinity());
     std::vector<size_t> before(n, 0);
     cost[0] = 0;
@@ -51,12 +86,13 @@ LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, cons
             }
         }
     }
-    LineDivision result{std::vector<char>(n, 0), std::vector<int>(n - 1, 1)};
+    LineDivision result{std::vector<char>(n, 0), std::vector<std::vector<double>>(n - 1)};
     result.keep[n - 1] = 1;
     for (size_t j = n - 1; j > 0; j = before[j]) {
         result.keep[before[j]] = 1;
         if (before[j] + 1 == j)
-            result.pieces[j - 1] = std::max(1, int(std::lround(along[j] - along[j - 1])));
+            result.cuts[j - 1] = cuts_of(run_along(mesh, line[j - 1], line[j], size),
+                                         std::max(1, int(std::lround(along[j] - along[j - 1]))));
     }
     return result;
 }

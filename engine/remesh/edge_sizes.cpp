@@ -72,10 +72,11 @@ Eigen::VectorXd curvature(const TriMesh& mesh, const EdgeGraph& graph, const std
 
 /// Where the given triangles are coarse, an edge across the ridge between two of them cuts it off
 /// by a quarter of its length times the angle. Where they are finer than that length their ridges
-/// together are a curvature.
+/// together are a curvature, which the vertices know; of long ones it goes on between these.
 void limit_by_ridges(const TriMesh& mesh, const EdgeGraph& graph, const std::vector<char>& kept, double sagitta,
-                     Eigen::VectorXd& size)
+                     EdgeSizes& sizes)
 {
+    sizes.along_edge.setConstant(Eigen::Index(graph.edge.size()), std::numeric_limits<double>::infinity());
     const Eigen::Matrix3Xd normal = area_vectors(mesh);
     for (size_t e = 0; e < graph.edge.size(); ++e) {
         const EdgeGraph::Edge& edge = graph.edge[e];
@@ -90,7 +91,9 @@ void limit_by_ridges(const TriMesh& mesh, const EdgeGraph& graph, const std::vec
                             : 4 * sagitta < width * angle ? 4 * sagitta / angle
                                                           : std::numeric_limits<double>::infinity();
         for (const int v : {edge.low, edge.high})
-            size[v] = std::min(size[v], most);
+            sizes.at_vertex[v] = std::min(sizes.at_vertex[v], most);
+        const double mean_width = (a.norm() + b.norm()) / edge.length;
+        sizes.along_edge[Eigen::Index(e)] = std::min(most, chord(angle / mean_width, sagitta));
     }
 }
 
@@ -174,21 +177,24 @@ void limit_growth(const TriMesh& mesh, double growth, Eigen::VectorXd& size)
     }
 }
 
-Eigen::VectorXd edge_sizes(const TriMesh& mesh, const KeptLines& lines, const SizeLimits& limits,
-                           const Eigen::VectorXd& least_at)
+EdgeSizes edge_sizes(const TriMesh& mesh, const KeptLines& lines, const SizeLimits& limits, const EdgeSizes& also)
 {
     const EdgeGraph graph = edge_graph(mesh);
     const Eigen::VectorXd bent = curvature(mesh, graph, lines.edge, limits.most);
-    Eigen::VectorXd size(mesh.vertices());
+    EdgeSizes result{Eigen::VectorXd(mesh.vertices()), {}, also.elsewhere, limits.most, limits.growth};
+    Eigen::VectorXd& size = result.at_vertex;
     for (int v = 0; v < mesh.vertices(); ++v)
         size[v] = std::min(limits.most, chord(bent[v], limits.sagitta));
-    limit_by_ridges(mesh, graph, lines.edge, limits.sagitta, size);
+    limit_by_ridges(mesh, graph, lines.edge, limits.sagitta, result);
     limit_by_lines(mesh, lines, limits, size);
-    if (least_at.size() > 0)
-        size = size.cwiseMin(least_at);
+    if (also.at_vertex.size() > 0)
+        size = size.cwiseMin(also.at_vertex);
     size = size.cwiseMax(limits.least);
+    result.along_edge = result.along_edge.cwiseMax(limits.least);
+    for (EdgeSizes::Place& place : result.elsewhere)
+        place.size = std::max(place.size, limits.least);
     limit_growth(mesh, limits.growth, size);
-    return size;
+    return result;
 }
 
 } // namespace spia

@@ -40,14 +40,14 @@ bool same_side(const Eigen::Vector3d& before, const Eigen::Vector3d& after)
 
 } // namespace
 
-EvolvingMesh::EvolvingMesh(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
+EvolvingMesh::EvolvingMesh(const TriMesh& original, const KeptLines& lines, const SizeField& size,
                            const ClosestPointSearch& search, double sagitta, const Eigen::VectorXd& gap,
                            const Progress& progress)
     : original_(original), lines_(lines), original_normal_(area_vectors(original)), original_size_(size),
       search_(search), sagitta_(sagitta), mesh_(halfedges(original)),
       on_line_(lines.on_line.begin(), lines.on_line.end()), drop_(size_t(original.vertices()), 0),
-      size_(size.begin(), size.end()), share_(size_.size(), 1), face_(size_.size(), 0), changed_(size_.size(), 0),
-      open_(size_.size(), 1)
+      size_(size.sizes().at_vertex.begin(), size.sizes().at_vertex.end()), share_(size_.size(), 1),
+      face_(size_.size(), 0), changed_(size_.size(), 0), open_(size_.size(), 1)
 {
     for (int f = 0; f < original.triangles(); ++f)
         for (const int v : original.triangle.col(f))
@@ -107,21 +107,26 @@ EvolvingMesh::Placed EvolvingMesh::place(const Vector& point, double way, Vertex
     ClosestPoint found = search_.nearest(point, (1 + rounding) * way);
     if (found.face < 0)
         found = search_.nearest(point);
-    double asked = 0;
-    for (int k = 0; k < 3; ++k)
-        asked += found.barycentric[k] * original_size_[original_.triangle(k, found.face)];
-    return {found.position, asked, found.face};
+    return {found.position, original_size_.in_face(found.face, found.barycentric), found.face};
 }
 
-/// Whether the middle of a new edge is near the given mesh: mostly it is so to a face at one of its
-/// ends.
+/// Whether a new edge is near the given mesh: at its middle, and at as many places as it is longer
+/// than the sizes ask, for it may be so in the middle of a bend that it crosses along its length.
+/// Mostly it is near to a face at one of its ends.
 bool EvolvingMesh::near(Vertex a, Vertex b) const
 {
-    const Vector middle = (at(a) + at(b)) / 2;
-    for (const Vertex end : {a, b})
-        if (distance_to_face(middle, face_[size_t(end.idx())]) <= sagitta_)
-            return true;
-    return search_.nearest(middle, sagitta_).face >= 0;
+    const auto on_it = [&](const Vector& place) {
+        for (const Vertex end : {a, b})
+            if (distance_to_face(place, face_[size_t(end.idx())]) <= sagitta_)
+                return true;
+        return search_.nearest(place, sagitta_).face >= 0;
+    };
+    constexpr double most = 31;
+    const int times = int(std::min(most, length(a, b) / std::min(size(a), size(b)))) | 1;
+    for (int k = 1; k <= times; ++k)
+        if (const double share = double(k) / (times + 1); !on_it((1 - share) * at(a) + share * at(b)))
+            return false;
+    return true;
 }
 
 /// One edge becomes two, and a vertex lies between them.
@@ -172,7 +177,12 @@ template <class Each> bool EvolvingMesh::all_halves(Edge edge, const Vector& pla
 bool EvolvingMesh::split(Edge edge)
 {
     const auto [a, b] = ends(edge);
-    const Placed middle = place((at(a) + at(b)) / 2, length(a, b) / 2, a);
+    Placed middle = place((at(a) + at(b)) / 2, length(a, b) / 2, a);
+    // A needle may be narrower than its edge is off the given mesh.
+    if (!all_halves(edge, middle.position, [](const Corners& before, const Corners& after) {
+            return same_side(area_of(before), area_of(after));
+        }))
+        middle.position = (at(a) + at(b)) / 2;
     static const double nothing = thinness(1e-4);
     if (!all_halves(edge, middle.position, [](const Corners& before, const Corners& after) {
             return thinness(after) < nothing || thinness(before) >= nothing;
@@ -205,11 +215,9 @@ void EvolvingMesh::divide(int number, const Eigen::VectorXd& sagitta, const Prog
         Vertex from(line[i]);
         const Vertex to(line[i + 1]);
         const Vector a = at(from), b = at(to);
-        for (int k = 1; k < division.pieces[i]; ++k) {
-            const double t = double(k) / division.pieces[i];
-            from = split(edge_between(from, to), a + t * (b - a), (1 - t) * size(Vertex(line[i])) + t * size(to),
+        for (const double t : division.cuts[i])
+            from = split(edge_between(from, to), a + t * (b - a), original_size_.between(line[i], line[i + 1], t),
                          face_[size_t(line[i])], number + 1);
-        }
     }
     for (size_t i = 0; i < line.size(); ++i)
         if (!division.keep[i])

@@ -11,6 +11,7 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/halfedges.h"
 #include "engine/remesh/kept_lines.h"
+#include "engine/remesh/size_field.h"
 
 namespace spia {
 
@@ -30,11 +31,10 @@ public:
     using Tick = long;                  ///< counts changes
 
     /// Divides the kept lines (divide_line()).
-    /// @param size     of edges at each vertex, mm
     /// @param sagitta  mm, that the middle of a new edge may be off the given mesh
     /// @param gap      border_clearance(): chords along the boundary take a third of it at most, so
     ///         that banks do not cross
-    EvolvingMesh(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
+    EvolvingMesh(const TriMesh& original, const KeptLines& lines, const SizeField& size,
                  const ClosestPointSearch& search, double sagitta, const Eigen::VectorXd& gap,
                  const Progress& progress);
 
@@ -138,7 +138,7 @@ private:
     const TriMesh& original_;
     const KeptLines& lines_;
     Eigen::Matrix3Xd original_normal_;
-    const Eigen::VectorXd& original_size_;
+    const SizeField& original_size_;
     const ClosestPointSearch& search_;
     double sagitta_;
     HalfedgeMesh mesh_;

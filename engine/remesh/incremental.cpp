@@ -323,7 +323,7 @@ struct IncrementalRemesh::State {
     IncrementalOptions options;
 };
 
-IncrementalRemesh::IncrementalRemesh(const TriMesh& part, const KeptLines& lines, const Eigen::VectorXd& size,
+IncrementalRemesh::IncrementalRemesh(const TriMesh& part, const KeptLines& lines, const SizeField& size,
                                      const ClosestPointSearch& search, const IncrementalOptions& options,
                                      const Progress& progress)
 {
@@ -368,7 +368,7 @@ IncrementalRemesh::Snapshot IncrementalRemesh::snapshot()
     return {std::move(finished.mesh), std::move(finished.was)};
 }
 
-TriMesh remesh_incrementally(const TriMesh& part, const KeptLines& lines, const Eigen::VectorXd& size,
+TriMesh remesh_incrementally(const TriMesh& part, const KeptLines& lines, const SizeField& size,
                              const ClosestPointSearch& search, const IncrementalOptions& options,
                              const Progress& progress)
 {

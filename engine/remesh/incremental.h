@@ -6,6 +6,7 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/remesh/kept_lines.h"
+#include "engine/remesh/size_field.h"
 
 namespace spia {
 
@@ -23,9 +24,9 @@ struct IncrementalOptions {
 /// halved there.
 class IncrementalRemesh {
 public:
-    /// @param size    of edges at each vertex, mm; it, the mesh and the lines have to stay
+    /// @param size    it, the mesh and the lines have to stay
     /// @param search  of `mesh`
-    IncrementalRemesh(const TriMesh& mesh, const KeptLines& lines, const Eigen::VectorXd& size,
+    IncrementalRemesh(const TriMesh& mesh, const KeptLines& lines, const SizeField& size,
                       const ClosestPointSearch& search, const IncrementalOptions& options,
                       const Progress& progress = {});
     ~IncrementalRemesh();
@@ -55,7 +56,7 @@ private:
 };
 
 /// Its run().
-TriMesh remesh_incrementally(const TriMesh& mesh, const KeptLines& lines, const Eigen::VectorXd& size,
+TriMesh remesh_incrementally(const TriMesh& mesh, const KeptLines& lines, const SizeField& size,
                              const ClosestPointSearch& search, const IncrementalOptions& options,
                              const Progress& progress = {});
 

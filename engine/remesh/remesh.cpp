@@ -103,12 +103,19 @@ double usual_edge(const TriMesh& mesh, double median)
 
 constexpr double no_height = 0.1; // of the tolerance: the normal of such a face is noise
 
+/// What stays the same for every attempt.
+struct Given {
+    const TriMesh &part, &even; ///< even: without thin faces, with the vertices of the part
+    const KeptLines& lines;
+    const ClosestPointSearch &on_part, &on_even;
+};
+
 /// What keeps a new mesh from being taken.
 struct Fault {
-    std::string text;        ///< empty: nothing
-    Eigen::VectorXd shorter; ///< #V of the part, mm: sizes that may help if all is done again
-    Eigen::VectorXd share;   ///< #V of the new mesh: of the length of edges there, which may help;
-                             ///< empty: none would
+    std::string text;      ///< empty: nothing
+    EdgeSizes shorter;     ///< of the part: what may help if all is done again
+    Eigen::VectorXd share; ///< #V of the new mesh: of the length of edges there, which may help;
+                           ///< empty: none would
 };
 
 std::string describe_place(const Eigen::Vector3d& p) { return place_text(p) + " mm"; }
@@ -148,10 +155,10 @@ std::vector<int> turned_over(const TriMesh& mesh, const std::vector<int>& neares
 /// Where edges have to be shorter, on the part and on the new mesh.
 class Shortening {
 public:
-    Shortening(Fault& fault, const TriMesh& part, const TriMesh& mesh, const Eigen::VectorXd& size, double tolerance)
-        : fault_(fault), part_(part), mesh_(mesh), size_(size), tolerance_(tolerance)
+    Shortening(Fault& fault, const Given& given, const TriMesh& mesh, const SizeField& size, double tolerance)
+        : fault_(fault), given_(given), mesh_(mesh), size_(size), tolerance_(tolerance)
     {
-        fault.shorter = size;
+        fault.shorter = size.sizes();
         fault.share = Eigen::VectorXd::Ones(mesh.vertices());
     }
 
@@ -159,26 +166,31 @@ public:
     void at(int face, int given_face, double distance)
     {
         const double share = std::clamp(0.6 * tolerance_ / distance, 0.3, 0.75);
-        for (const int v : part_.triangle.col(given_face))
-            fault_.shorter[v] = std::min(fault_.shorter[v], share * size_[v]);
+        for (const int v : given_.part.triangle.col(given_face))
+            fault_.shorter.at_vertex[v] = std::min(fault_.shorter.at_vertex[v], share * size_.at_vertex(v));
+        const Eigen::Vector3d place = mesh_.position(Eigen::all, mesh_.triangle.col(face)).rowwise().mean();
+        const ClosestPoint near = given_.on_even.nearest(place);
+        fault_.shorter.elsewhere.push_back({place, share * size_.in_face(near.face, near.barycentric)});
         for (const int v : mesh_.triangle.col(face))
             fault_.share[v] = std::min(fault_.share[v], share);
     }
 
 private:
     Fault& fault_;
-    const TriMesh &part_, &mesh_;
-    const Eigen::VectorXd& size_;
+    const Given& given_;
+    const TriMesh& mesh_;
+    const SizeField& size_;
     double tolerance_;
 };
 
 /// @param distance  as measured for the mesh
-Fault fault_of(const TriMesh& mesh, const TwoWayDistance& distance, const TriMesh& part, const Eigen::VectorXd& size,
+Fault fault_of(const TriMesh& mesh, const TwoWayDistance& distance, const Given& given, const SizeField& size,
                double tolerance)
 {
+    const TriMesh& part = given.part;
     Fault fault;
     const MeshDistance &to_part = distance.to_part(), &from_part = distance.from_part();
-    Shortening shorten(fault, part, mesh, size, tolerance);
+    Shortening shorten(fault, given, mesh, size, tolerance);
     const std::vector<int> over = turned_over(mesh, to_part.nearest, part, tolerance);
     for (const int f : over)
         shorten.at(f, to_part.nearest[size_t(f)], to_part.of_face[f]);
@@ -201,28 +213,25 @@ Fault fault_of(const TriMesh& mesh, const TwoWayDistance& distance, const TriMes
 }
 
 /// A mesh of another kind than the part is not measured.
-Fault fault_of_type(const SurfaceType& before, const SurfaceType& after, const Eigen::VectorXd& size)
+Fault fault_of_type(const SurfaceType& before, const SurfaceType& after, const SizeField& size)
 {
     if (before.loops == after.loops && before.genus == after.genus)
         return {};
+    EdgeSizes half = size.sizes();
+    half.at_vertex /= 2;
+    for (EdgeSizes::Place& place : half.elsewhere)
+        place.size /= 2;
     return {fmt::format("the remeshed part has {} boundary loops and genus {} in place of {} and {}", after.loops,
                         after.genus, before.loops, before.genus),
-            size / 2,
+            std::move(half),
             {}};
 }
-
-/// What stays the same for every attempt.
-struct Given {
-    const TriMesh &part, &even; ///< even: without thin faces, with the vertices of the part
-    const KeptLines& lines;
-    const ClosestPointSearch &on_part, &on_even;
-};
 
 /// Remeshes with these sizes. Where the mesh is not good it is made finer there until it is, a few
 /// times.
 /// @param limits  that the sizes are of
 /// @returns what is wrong with it in the end
-Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& size, const SizeLimits& limits,
+Fault attempt(RemeshResult& result, const Given& given, const SizeField& size, const SizeLimits& limits,
               const IncrementalOptions& options, const Progress& progress)
 {
     constexpr int most_repairs = 8;       // two or three are usual
@@ -249,7 +258,7 @@ Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& s
         distance.measure(result.mesh, snapshot.was, progress.part(from(share_of_making), from(1)));
         result.distance = distance.bound();
         result.seen = distance.seen();
-        Fault fault = fault_of(result.mesh, distance, given.part, size, result.tolerance);
+        Fault fault = fault_of(result.mesh, distance, given, size, result.tolerance);
         if (fault.text.empty())
             lead_back(result, given.part, given.on_part, distance.to_part().nearest);
         const Eigen::Index at_fault = (fault.share.array() < 1).count();
@@ -263,20 +272,6 @@ Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& s
         remesh.refine(fault.share, least, limits.growth,
                       progress.part(next, next + share_of_making * (1 - all_rounds) / most_repairs));
     }
-}
-
-/// Of the mesh that these sizes ask for.
-double expected_triangles(const TriMesh& part, const Eigen::VectorXd& size)
-{
-    const Eigen::VectorXd each = area_vectors(part).colwise().norm();
-    double count = 0;
-    for (int f = 0; f < part.triangles(); ++f) {
-        double mean = 0; // of 1 / size^2
-        for (const int v : part.triangle.col(f))
-            mean += 1 / (size[v] * size[v]) / 3;
-        count += each[f] * mean * 4 / std::sqrt(3.0);
-    }
-    return count;
 }
 
 } // namespace
@@ -315,8 +310,9 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     for (int done = 0;; ++done) {
         constexpr double left = 0.2; // of the way after an attempt: mostly the first one is good
         const Progress here = progress.part(1 - std::pow(left, done), 1 - std::pow(left, done + 1));
-        const Eigen::VectorXd size = edge_sizes(even, lines, limits, fault.shorter);
-        if (const double count = expected_triangles(even, size); count > most_triangles) {
+        const SizeField size(even, edge_sizes(even, lines, limits, fault.shorter));
+        const double count = size.triangles();
+        if (count > most_triangles) {
             if (!fault.text.empty())
                 refuse("a smaller size");
             fault.text =
@@ -327,9 +323,9 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
         constexpr double most_growth = 20; // then shorter edges do not help
         // 1.5 for a triangle that is to be; the needles of CAD faces take up to 15 times as many on
         // the way.
-        const double most_edges = std::max(2e6, 25 * 1.5 * expected_triangles(even, size));
+        const double most_edges = std::max(2e6, 25 * 1.5 * count);
         if (done == 0)
-            most_triangles = std::min(most_triangles, most_growth * expected_triangles(even, size));
+            most_triangles = std::min(most_triangles, most_growth * count);
         fault = attempt(result, given, size, limits, {allowed * result.tolerance, most_edges}, here);
         if (fault.text.empty())
             break;

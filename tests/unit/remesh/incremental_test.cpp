@@ -10,6 +10,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/samples.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/remesh/same_size.h"
 
 namespace spia {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 TriMesh divided(const TriMesh& mesh, double size, double most_edges)
 {
     const KeptLines lines = kept_lines(mesh, {}, 0.7, 0.7, size);
-    return remesh_incrementally(mesh, lines, Eigen::VectorXd::Constant(mesh.vertices(), size), ClosestPointSearch(mesh),
+    return remesh_incrementally(mesh, lines, shapes::same_size(mesh, size), ClosestPointSearch(mesh),
                                 {0.01, most_edges});
 }
 
@@ -58,7 +59,7 @@ TEST(RemeshIncrementally, RefinesWhereItIsToldAndLeavesAllElseAsItIs)
     const TriMesh dome = shapes::sample("dome").make(4000);
     const double size = 3;
     const KeptLines lines = kept_lines(dome, {}, 0.7, 0.7, size);
-    const Eigen::VectorXd sizes = Eigen::VectorXd::Constant(dome.vertices(), size);
+    const SizeField sizes = shapes::same_size(dome, size);
     const ClosestPointSearch search(dome);
     std::mt19937 random(3);
     for (int trial = 0; trial < 12; ++trial) {

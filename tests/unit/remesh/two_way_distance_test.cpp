@@ -9,6 +9,7 @@
 #include "engine/remesh/incremental.h"
 #include "tests/support/samples.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/remesh/same_size.h"
 
 namespace spia {
 namespace {
@@ -38,7 +39,7 @@ TEST(TwoWayDistance, AfterChangesItIsWhatMeasuringAllAgainGives)
         const double diagonal = bounding_diagonal(part), size = diagonal / 25, tolerance = diagonal / 2000;
         const KeptLines lines = kept_lines(part, {}, 0.5, 0.1, size);
         const ClosestPointSearch search(part);
-        const Eigen::VectorXd sizes = Eigen::VectorXd::Constant(part.vertices(), size);
+        const SizeField sizes = shapes::same_size(part, size);
         IncrementalRemesh remesh(part, lines, sizes, search, {5 * tolerance});
         remesh.run();
         TwoWayDistance distance(part, search, tolerance);
