@@ -361,7 +361,7 @@ private:
         if (!std::holds_alternative<Quit>(action))
             return false;
         const bool confirmed = std::exchange(ui_.confirmed, false);
-        if (model_.state().unsaved && model_.state().document.session.part && !options_.exit && !confirmed) {
+        if (model_.state().document.unsaved && model_.state().document.session.part && !options_.exit && !confirmed) {
             ui_.held = action;
             return true;
         }
@@ -396,7 +396,7 @@ private:
                 kept_.open(model_, action);
             else if (!files_.take(action))
                 model_.apply(action);
-            if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved) {
+            if (std::holds_alternative<SaveProject>(action) && !model_.state().document.unsaved) {
                 kept_.forget();
                 remember(model_.state().project);
             }
@@ -407,7 +407,7 @@ private:
 
     bool work_to_keep() const
     {
-        return !options_.exit && model_.state().unsaved && model_.state().document.session.part;
+        return !options_.exit && model_.state().document.unsaved && model_.state().document.session.part;
     }
 
     /// What has been written meanwhile, and what is to be.

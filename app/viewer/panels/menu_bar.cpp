@@ -231,7 +231,7 @@ void menu_bar(Frame& frame)
     const std::string title =
         state.project.empty() ? state.document.session.file.filename().string() : state.project.filename().string();
     if (!title.empty()) {
-        const std::string text = title + (state.unsaved ? " *" : "");
+        const std::string text = title + (state.document.unsaved ? " *" : "");
         ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - 14 * frame.ui.scale);
         ImGui::TextDisabled("%s", text.c_str());
     }

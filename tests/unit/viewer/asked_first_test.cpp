@@ -21,16 +21,16 @@ TEST_F(AskedFirst, ResultsAloneAreNoWorkThatCouldBeLost)
     model.apply(RunTo{Stage::fit});
     wait();
     ASSERT_TRUE(document.session.surface);
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
     model.apply(Undo{});
     model.apply(Redo{});
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
     model.apply(OpenPart{other, ""});
     wait();
     EXPECT_EQ(document.session.file, other);
 
     model.apply(SetThickness{2});
-    EXPECT_TRUE(state.unsaved) << "a choice is";
+    EXPECT_TRUE(state.document.unsaved) << "a choice is";
 }
 
 TEST_F(AskedFirst, WhatIsReadWaitsForTheUsersWord)
@@ -62,7 +62,7 @@ TEST_F(AskedFirst, WhatIsReadWaitsForTheUsersWord)
     model.apply(TakeOpened{true});
     EXPECT_EQ(document.session.file, other);
     EXPECT_EQ(model.documents(), documents + 1);
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
 }
 
 TEST_F(AskedFirst, NobodyIsAskedForAFileThatCannotBeRead)
@@ -96,7 +96,7 @@ TEST_F(AskedFirst, ASurfaceThatIsCancelledLeavesOptionsAndResultInAgreement)
     EXPECT_EQ(document.session.surface, surface);
     EXPECT_EQ(fit_choice(document.session.options), before);
     EXPECT_EQ(first_stale(document), std::nullopt);
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
     EXPECT_TRUE(says(Severity::hint, "options are again those of the result"));
 
     model.apply(Redo{}); // wanted after all: then the result is old, and is said to be

@@ -60,7 +60,7 @@ TEST_F(UnsavedWork, StaysOpenWhenThePartThatWasToTakeItsPlaceIsNone)
         ASSERT_NE(state.document.session.part, nullptr) << name;
         EXPECT_EQ(kept.offer(), nullptr) << "nothing is lost";
         EXPECT_EQ(state.document.selected, (std::vector<int>{1, 2, 3})) << name;
-        EXPECT_TRUE(state.unsaved);
+        EXPECT_TRUE(state.document.unsaved);
     }
     kept.keep(state);
     EXPECT_FALSE(nothing_kept());
@@ -74,7 +74,7 @@ TEST_F(UnsavedWork, StaysOpenWhenTheFileIsNotThere)
     open(OpenProject{folder / "missing.spia"});
     EXPECT_EQ(kept.offer(), nullptr);
     EXPECT_EQ(state.document.selected, (std::vector<int>{1, 2, 3}));
-    EXPECT_TRUE(state.unsaved);
+    EXPECT_TRUE(state.document.unsaved);
 }
 
 TEST_F(UnsavedWork, IsForgottenWhenTheOtherPartIsThere)

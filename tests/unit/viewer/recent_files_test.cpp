@@ -161,7 +161,7 @@ TEST_F(UnfinishedWork, OfAPartWithoutAProjectIsUnsavedAndHasNoProjectWhenItIsOpe
         ViewerModel model(materials_folder.parent_path());
         model.apply(OpenProject{left->file()});
         EXPECT_EQ(model.state().project, own);
-        EXPECT_TRUE(model.state().unsaved);
+        EXPECT_TRUE(model.state().document.unsaved);
         left->discard();
     }
     EXPECT_FALSE(is_autosave(folder / "autosave-of-mine.spia"));

@@ -210,7 +210,7 @@ TEST_F(RefusedPart, LeavesThePartThatIsOpenWithItsResults)
         EXPECT_EQ(state.document.session.blank, blank);
         EXPECT_EQ(first_stale(state.document), Stage::grid);
         EXPECT_EQ(state.document.selected, (std::vector<int>{1, 2, 3}));
-        EXPECT_TRUE(state.unsaved);
+        EXPECT_TRUE(state.document.unsaved);
         EXPECT_EQ(window_title(state), "dome* - SPIA");
         EXPECT_EQ(state.view.camera, cameras);
         EXPECT_EQ(examined(state), part.get()) << "until its faults are asked for";
@@ -332,7 +332,7 @@ TEST_F(RefusedPart, ARunThatAnOpeningEndsIsNoChangeOfThePartThatStays)
 {
     apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/inner-panel.obj", ""});
     model.apply(RunTo{Stage::solve});
-    EXPECT_FALSE(state.unsaved) << "what is computed comes again by one key";
+    EXPECT_FALSE(state.document.unsaved) << "what is computed comes again by one key";
     apply(OpenPart{two_pieces(), ""});
     EXPECT_EQ(window_title(state), "inner-panel - SPIA") << "nothing to save";
     EXPECT_EQ(state.history.undo_name(), "");

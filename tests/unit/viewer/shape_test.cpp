@@ -35,7 +35,7 @@ TEST_F(Shape, APickedControlPointMovesAndUndoTakesItBack)
     EXPECT_NEAR(document.session.deformed->result.largest, std::sqrt(14.), 1e-12);
     EXPECT_EQ(document.session.deformed->certificate.patch.size(), 1u);
     EXPECT_FALSE(first_stale(document)) << "no stage has to run again";
-    EXPECT_TRUE(state.unsaved);
+    EXPECT_TRUE(state.document.unsaved);
     model.apply(Undo{});
     EXPECT_FALSE(document.session.deformed);
     EXPECT_EQ(control(30), before);

@@ -64,7 +64,7 @@ TEST_F(UnfoldingSteps, AProjectKeepsTheListAndRunsItAgain)
     EXPECT_EQ(after(2).position, third);
     EXPECT_EQ(state.view.step, 2);
     EXPECT_EQ(step_position(state), 2.5);
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
 }
 
 TEST_F(UnfoldingSteps, OnAPartMeshedAnewTheStepsOfAProjectAreFoundAgainAndUnfoldIt)

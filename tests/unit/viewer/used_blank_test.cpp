@@ -163,7 +163,7 @@ TEST_F(UsedBlank, AProjectMakesItAgain)
     ASSERT_TRUE(document.session.surface) << last(Severity::error);
     EXPECT_EQ(source(), "steps, polished");
     EXPECT_EQ(document.session.blank->blank.position, flat);
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
     EXPECT_EQ(state.history.undo_name(), "");
 }
 

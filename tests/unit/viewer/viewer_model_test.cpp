@@ -105,7 +105,7 @@ TEST_F(ViewerModelTest, AReadingThatIsCancelledTakesItsOptionsBack)
     wait();
     EXPECT_FALSE(document.session.options.read.remesh);
     EXPECT_NE(first_stale(document), Stage::read);
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
     EXPECT_TRUE(says(Severity::hint, "The options are again those of the result that is shown"));
 }
 
@@ -120,6 +120,29 @@ TEST_F(ViewerModelTest, WhatFixedRegionsActOnIsSaidWhereNothingIsToBeDone)
     EXPECT_TRUE(says(Severity::hint, "Fixed regions take effect in Step by step only"));
 }
 
+TEST_F(ViewerModelTest, WhatWasSavedIsSavedAgainAfterUndoAndRedo)
+{
+    const ScratchFolder folder;
+    open();
+    model.apply(SetThickness{1.5});
+    model.apply(SelectFaces{{10, 11}});
+    EXPECT_TRUE(document.unsaved);
+    model.apply(Undo{});
+    EXPECT_TRUE(document.unsaved);
+    model.apply(Undo{});
+    EXPECT_FALSE(document.unsaved) << "all is taken back";
+    model.apply(Redo{});
+    EXPECT_TRUE(document.unsaved);
+    model.apply(SaveProject{folder / "saved.spia"});
+    EXPECT_FALSE(document.unsaved);
+    model.apply(Undo{});
+    EXPECT_TRUE(document.unsaved) << "the file has the other thickness";
+    model.apply(Redo{});
+    EXPECT_FALSE(document.unsaved);
+    model.apply(Redo{});
+    EXPECT_TRUE(document.unsaved);
+}
+
 TEST_F(ViewerModelTest, AFirstRunThatIsCancelledLeavesNothingToSaveOrToTakeBack)
 {
     open("square-cup.obj");
@@ -127,14 +150,14 @@ TEST_F(ViewerModelTest, AFirstRunThatIsCancelledLeavesNothingToSaveOrToTakeBack)
     model.apply(CancelJob{});
     wait();
     ASSERT_EQ(document.session.blank, nullptr);
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
     EXPECT_EQ(state.history.undo_name(), "");
 
     model.apply(SetThickness{0.7});
     model.apply(RunTo{Stage::solve});
     model.apply(CancelJob{});
     wait();
-    EXPECT_TRUE(state.unsaved);
+    EXPECT_TRUE(state.document.unsaved);
     EXPECT_EQ(state.history.undo_name(), "Change thickness");
 
     model.apply(RunTo{Stage::solve});
@@ -221,7 +244,7 @@ TEST_F(ViewerModelTest, UndoWithNothingToUndoLeavesTheWorkSaved)
     open();
     model.apply(Undo{});
     model.apply(Redo{});
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
 }
 
 TEST_F(ViewerModelTest, AnOldResultIsSaidToBeOldAndKeepsItsOptions)
@@ -319,7 +342,7 @@ TEST_F(ViewerModelTest, AProjectComesBackWithItsPicksAndResults)
     model.apply(RunTo{Stage::grid});
     wait();
     model.apply(SaveProject{folder / "dome.spia"});
-    EXPECT_FALSE(state.unsaved);
+    EXPECT_FALSE(state.document.unsaved);
     EXPECT_TRUE(says(Severity::done, "dome.spia"));
     const auto blank = document.session.blank->blank.position;
 
@@ -405,7 +428,7 @@ TEST_F(ViewerModelTest, APartThatHasMovedIsOpenedWithTheSettingsOfItsProject)
         ASSERT_EQ(document.regions.size(), 1u);
         EXPECT_EQ(document.regions[0].faces, (std::vector{3, 5}));
         EXPECT_EQ(state.project, project);
-        EXPECT_TRUE(state.unsaved) << "the project is to say where its part is";
+        EXPECT_TRUE(state.document.unsaved) << "the project is to say where its part is";
         EXPECT_TRUE(says(Severity::hint, "Save the project to keep that"));
     }
     // Another part that is opened later has nothing to do with it.

@@ -175,7 +175,8 @@ struct ViewerModel::Apply {
     void operator()(const HideSpot&);
     /// @param before  of a place that the views went to
     /// @param since   there; a view that was moved on stays
-    void go_back(const std::array<Camera, 4>& before, const std::array<Camera, 4>& since);
+    std::array<Camera, 4> left_at(const WayBack* way) const;
+    void go_back(const WayBack& way);
     void operator()(const FlyToVertex& action);
     /// Every view shows the middle of some vertices of the part.
     /// @param at_least  mm, what the views show

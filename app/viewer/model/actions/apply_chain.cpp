@@ -15,7 +15,7 @@ template <class Edit> void ViewerModel::Apply::read_again(std::string name, cons
         throw InputError("Open a part first.");
     if (model.busy())
         throw InputError("Cancel the running job first; then read the part with other options.");
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change(std::move(name));
     (*this)(DismissMessages{}); // of the part as it was read before
     edit(session.options.read);
@@ -116,10 +116,10 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         model.next_in_one_step_ |= instead;
         return;
     }
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change(action.stage == Stage::solve ? run_names[0] : run_names[1]);
-    state.unsaved = unsaved; // what is computed comes again by one key: it is no work that could be
-                             // lost
+    state.document.unsaved = unsaved; // what is computed comes again by one key: it is no work that could be
+                                      // lost
     if (instead) {
         session.options.steps.reset();
         model.say(Severity::hint, "The one-step blank is used again. The blank of the steps is kept with them.");
@@ -172,7 +172,7 @@ void ViewerModel::Apply::operator()(const SetKFactor& action)
         throw InputError(
             "A K factor needs the middle surface, but the lengths are those of a skin: choose \"middle\" as \"Skin\" "
             "in the step Part first.");
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change("Change the K factor", true);
     session.options.k_factor = std::move(k);
     if (session.blank)
@@ -221,7 +221,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
                 model.run_to(Stage::fit, "Making the grid");
             return;
         }
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change(fmt::format("Move corner {}", action.corner + 1), true);
     if (!action.dragging)
         state.history.close();
@@ -237,7 +237,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
 void ViewerModel::Apply::operator()(const ProposeCorners&)
 {
     require_one_patch();
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change("Propose corners");
     session.options.corners.reset();
     if (session.blank)
@@ -250,7 +250,7 @@ void ViewerModel::Apply::operator()(const SetGrid& action)
     if (grid.columns < 0 || grid.rows < 0 || grid.columns > 2000 || grid.rows > 2000 || grid.cells < 1 ||
         grid.cells > 2000)
         throw InputError("A grid has from 1 to 2000 cells in each direction (0: automatic).");
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change("Change grid", true);
     session.options.grid = grid;
     if (session.blank)
@@ -261,7 +261,7 @@ void ViewerModel::Apply::operator()(const SetFit& action)
 {
     SessionOptions options = session.options;
     set_fit(options, action.fit);
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change("Change the surface");
     session.options = std::move(options);
     if (session.lifted || (session.blank && session.options.patches))

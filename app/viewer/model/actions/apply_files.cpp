@@ -16,8 +16,6 @@ void ViewerModel::Apply::go(void (History::*way)(Document&))
     if (name.empty())
         return;
     (state.history.*way)(document);
-    if (std::find(std::begin(run_names), std::end(run_names), name) == std::end(run_names))
-        state.unsaved = true;
     if (state.refused_file)
         return;
     state.refused.reset(); // of another way to read the part
@@ -52,7 +50,7 @@ void ViewerModel::Apply::operator()(const TakeOpened& action)
 {
     if (!model.waiting_)
         throw InputError("No file is waiting to be opened.");
-    if (state.unsaved && !action.without_saving)
+    if (state.document.unsaved && !action.without_saving)
         return; // saving has failed: the user is asked again
     state.read_and_waits.reset();
     model.take_result(std::move(*std::exchange(model.waiting_, std::nullopt)), "Opening");
@@ -71,7 +69,9 @@ void ViewerModel::Apply::operator()(const SaveProject& action)
         throw InputError("Give the project a name: Save project as.");
     save_project(file, document, kept_view(state));
     state.project = file;
-    state.unsaved = false;
+    // What undo or redo bring back now is not what the file holds.
+    state.history.update_since(0, [](Document& other) { other.unsaved = true; });
+    document.unsaved = false;
     model.say(Severity::done, fmt::format("Saved {}", file.string()));
 }
 

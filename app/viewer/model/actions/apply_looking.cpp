@@ -75,19 +75,16 @@ void ViewerModel::Apply::operator()(const FlyTo& action)
     if (action.face < 0 || action.face >= mesh.triangles())
         throw InputError(fmt::format("The part has no face {}.", action.face));
     const auto t = mesh.triangle.col(action.face);
-    // From spot to spot the way back leads to where the first one was left.
-    const bool on_the_way = state.spot && state.spot->since == state.view.camera;
-    ShownSpot spot{action.face, on_the_way ? state.spot->before : state.view.camera, {}, session.part};
+    const std::array<Camera, 4> before = left_at(state.spot ? &state.spot->back : nullptr);
     look_at({t[0], t[1], t[2]}, bend_around(session, action.face));
-    spot.since = state.view.camera;
-    state.spot = std::move(spot);
+    state.spot = ShownSpot{action.face, {before, state.view.camera}, session.part};
 }
 
 void ViewerModel::Apply::operator()(const HideSpot&)
 {
     if (!state.spot)
         return;
-    go_back(state.spot->before, state.spot->since);
+    go_back(state.spot->back);
     state.spot.reset();
 }
 
@@ -95,15 +92,21 @@ void ViewerModel::Apply::operator()(const HideFault&)
 {
     if (!state.fault)
         return;
-    go_back(state.fault->before, state.fault->since);
+    go_back(state.fault->back);
     state.fault.reset();
 }
 
-void ViewerModel::Apply::go_back(const std::array<Camera, 4>& before, const std::array<Camera, 4>& since)
+/// From place to place the way back leads to where the first one was left.
+std::array<Camera, 4> ViewerModel::Apply::left_at(const WayBack* way) const
+{
+    return way && way->since == state.view.camera ? way->before : state.view.camera;
+}
+
+void ViewerModel::Apply::go_back(const WayBack& way)
 {
     for (const View view : all_views)
-        if (state.view.camera[size_t(view)] == since[size_t(view)])
-            state.view.camera[size_t(view)] = before[size_t(view)];
+        if (state.view.camera[size_t(view)] == way.since[size_t(view)])
+            state.view.camera[size_t(view)] = way.before[size_t(view)];
 }
 
 void ViewerModel::Apply::operator()(const FlyToVertex& action)
@@ -147,9 +150,7 @@ void ViewerModel::Apply::operator()(const ShowFault& action)
     constexpr double beyond_any_part = 1e9; // mm
     if (!at.allFinite() || at.cwiseAbs().maxCoeff() > beyond_any_part)
         throw InputError("This place has no coordinates that could be shown.");
-    // From place to place the way back leads to where the first one was left.
-    const bool on_the_way = state.fault && state.fault->since == state.view.camera;
-    const std::array<Camera, 4> before = on_the_way ? state.fault->before : state.view.camera;
+    const std::array<Camera, 4> before = left_at(state.fault ? &state.fault->back : nullptr);
     const double size = 0.15 * bounding_diagonal(part->mesh);
     for (const View view : all_views) {
         Camera& camera = state.view.camera[size_t(view)];
@@ -160,7 +161,7 @@ void ViewerModel::Apply::operator()(const ShowFault& action)
                 camera.height = std::min(camera.height, size);
         }
     }
-    state.fault = ShownFault{action.finding, action.entry, at, before, state.view.camera};
+    state.fault = ShownFault{action.finding, action.entry, at, {before, state.view.camera}};
 }
 
 } // namespace spia::viewer

@@ -13,7 +13,7 @@ void ViewerModel::Apply::change(std::string name, bool merge)
                                      model.opening_beside_->document.session.file.filename().string(),
                                      session.file.filename().string()));
     state.history.remember(std::move(name), document, merge);
-    state.unsaved = true;
+    state.document.unsaved = true;
 }
 
 void ViewerModel::Apply::end_runs()

@@ -12,7 +12,7 @@ void ViewerModel::Apply::change_patches(std::string name, std::optional<LayoutOp
     part();
     if (session.options.patches == patches)
         return;
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change(std::move(name));
     session.options.patches = std::move(patches);
     if (session.blank)

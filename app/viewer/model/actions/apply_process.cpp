@@ -17,6 +17,7 @@ template <class Edit> void ViewerModel::Apply::change_process(std::string name, 
     edit(edited);
     edited.session.options.flatten.process = process_of(edited, model.assets() / "materials");
     change(std::move(name), merge);
+    edited.unsaved = document.unsaved;
     document = std::move(edited);
 }
 

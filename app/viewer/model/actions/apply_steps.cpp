@@ -107,7 +107,7 @@ void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
         return;
     }
     dismiss_before_run(state.messages);
-    const bool unsaved = state.unsaved;
+    const bool unsaved = state.document.unsaved;
     change(action.polish ? "Polish the blank of the steps" : "Use the blank of the steps");
     session.options.steps = wanted;
     model.show_step(std::nullopt, 0); // the part is looked at again, with the strains of its blank

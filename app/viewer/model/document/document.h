@@ -125,6 +125,7 @@ struct Document {
     std::shared_ptr<const StepsRun> unfolding; ///< the last run of steps, see steps_done(); null:
                                                ///< none yet
     FieldDisplay display;
+    bool unsaved = false; ///< work that a saved project does not hold; undo brings back what was so
 };
 
 /// The conditions for the solver, of the regions, the lines and the rest.

@@ -101,7 +101,7 @@ std::string window_title(const ViewerState& state)
     if (state.project.empty() && !session.part) // a file that is being read may be refused
         return "SPIA";
     const std::filesystem::path& about = state.project.empty() ? session.file : state.project;
-    return about.stem().string() + (state.unsaved ? "*" : "") + " - SPIA";
+    return about.stem().string() + (state.document.unsaved ? "*" : "") + " - SPIA";
 }
 
 } // namespace spia::viewer

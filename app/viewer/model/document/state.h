@@ -87,19 +87,23 @@ inline std::optional<HalfSpace> kept_in(const ViewSettings& settings, View view)
     return view == View::blank ? std::nullopt : kept_by(settings.clip);
 }
 
+/// Where the views were before they went to a place.
+struct WayBack {
+    std::array<Camera, 4> before = {}; ///< to go back to
+    std::array<Camera, 4> since = {};  ///< there: a view that was moved on stays
+};
+
 /// A place where the mesh of the part is at fault, to which the views went.
 struct ShownFault {
     int finding = 0, entry = 0;                      ///< of the doctor's report, of Finding::place
     Eigen::Vector3d place = Eigen::Vector3d::Zero(); ///< mm
-    std::array<Camera, 4> before = {};               ///< of the views, to go back to
-    std::array<Camera, 4> since = {};                ///< likewise, there: one that was moved on stays
+    WayBack back = {};
 };
 
 /// A face that the views went to: it has a mark of its own, what is selected stays.
 struct ShownSpot {
-    int face = 0;                            ///< of the part
-    std::array<Camera, 4> before = {};       ///< of the views, to go back to
-    std::array<Camera, 4> since = {};        ///< likewise, there: one that was moved on stays
+    int face = 0; ///< of the part
+    WayBack back = {};
     std::shared_ptr<const PartFile> of = {}; ///< the part whose face it is
 };
 
@@ -164,8 +168,7 @@ struct ViewerState {
                                                       ///< being dragged) has put out of date
     std::filesystem::path project;                    ///< file it was saved to or opened from;
                                                       ///< empty: none yet
-    bool unsaved = false;
-    std::optional<ExportOutcome> exported; ///< none since the last export was begun
+    std::optional<ExportOutcome> exported;            ///< none since the last export was begun
     /// handles of the surface follow the mouse
     bool shape_dragged = false;
     std::optional<int> hovered; ///< face under the mouse

@@ -85,7 +85,7 @@ Eventually<bool> KeptWork::write(const Document& document, const ViewSettings& v
 void KeptWork::open(ViewerModel& model, const Action& action)
 {
     const ViewerState& state = model.state();
-    const bool had_part = state.document.session.part != nullptr, leaves_work = state.unsaved && had_part;
+    const bool had_part = state.document.session.part != nullptr, leaves_work = state.document.unsaved && had_part;
     const Document document = state.document;
     const ViewSettings view = kept_view(state);
     const std::filesystem::path project = state.project;
@@ -126,7 +126,7 @@ void KeptWork::follow(ViewerModel& model, bool now_and_then, Clock::time_point n
     }
     if (std::exchange(seen_, state.history.now()) != state.history.now())
         changed_ = now;
-    if (!now_and_then || !state.unsaved || !state.document.session.part || model.busy() || writing_.wanted() ||
+    if (!now_and_then || !state.document.unsaved || !state.document.session.part || model.busy() || writing_.wanted() ||
         due_in(now) > 0)
         return;
     last_ = now;

@@ -123,7 +123,7 @@ void ViewerModel::replace_document(Opening opening)
     const bool k_forgotten = k_before && !opening.project && !state_.document.session.options.k_factor;
     project_ = std::move(opening.project);
     state_.project = std::move(opening.project_file);
-    state_.unsaved = opening.unsaved;
+    state_.document.unsaved = opening.unsaved;
     state_.view.unfolded = 0;
     state_.view.step.reset();
     state_.history = History{};

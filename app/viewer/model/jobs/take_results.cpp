@@ -36,7 +36,7 @@ void ViewerModel::take_chain_result()
     if (open_by_itself(result))
         return;
     // first it is read, then the user is asked
-    if (opening_beside_ && result.session.part && asks_ && state_.unsaved) {
+    if (opening_beside_ && result.session.part && asks_ && state_.document.unsaved) {
         const Opening& opening = *opening_beside_;
         state_.read_and_waits = opening.project_file.empty() ? opening.document.session.file : opening.project_file;
         waiting_ = std::move(result);
@@ -116,12 +116,11 @@ bool ViewerModel::forget_run_without_result(const ChainResult& result, const Ses
         if (!result.cancelled || now.lifted != before.lifted || now.surface != before.surface)
             return false;
         state_.history.undo(state_.document);
-        state_.unsaved &= *unsaved_before;
         state_.before = {};
         return true;
     }
     state_.history.forget_last();
-    state_.unsaved &= *unsaved_before;
+    state_.document.unsaved &= *unsaved_before;
     if (now.blank)
         state_.document.session.options.steps = state_.document.made_with.steps;
     else

@@ -81,7 +81,7 @@ void ViewerModel::take_steps_result()
     const size_t done_before = steps_done(document);
     const auto change = [&](const char* name) {
         state_.history.remember(name, document);
-        state_.unsaved = true;
+        state_.document.unsaved = true;
     };
     if (outcome.proposed && !outcome.proposed->empty()) {
         change(outcome.opened.empty() ? "Propose steps" : "Open steps");

@@ -375,7 +375,7 @@ Json state_report(const ViewerState& state)
               {"steps", state.job.residual.size()}}},
             {"project",
              {{"file", state.project.string()},
-              {"unsaved", state.unsaved},
+              {"unsaved", state.document.unsaved},
               {"waits", state.read_and_waits ? state.read_and_waits->string() : ""}}},
             {"hovered", state.hovered ? Json(*state.hovered) : Json(nullptr)},
             {"hovered_vertex", written(state.hovered_vertex)}};

@@ -42,12 +42,14 @@ std::string percent(double share)
 /// Below them a figure is nothing when rounded as it is here.
 constexpr double no_distance_mm = 5e-4, no_angle_deg = 0.05, no_strain = 5e-4;
 
-/// How well the target goes on from what stays.
+/// How well the target goes on from what stays: what is more than nothing of it.
 std::string hinge_words(const StepFigures::Hinge& hinge, LengthUnit lengths)
 {
-    return fmt::format("hinge offset {}, {:.1f}\u00b0",
-                       length_text(hinge.distance_mm < no_distance_mm ? 0 : hinge.distance_mm, lengths, 2),
-                       hinge.angle_deg);
+    const std::string offset = "offset " + length_text(hinge.distance_mm, lengths, 2),
+                      angle = fmt::format("at {:.1f}\u00b0", hinge.angle_deg);
+    return "hinge " + (hinge.distance_mm < no_distance_mm ? angle
+                       : hinge.angle_deg < no_angle_deg   ? offset
+                                                          : offset + " and " + angle);
 }
 
 /// The figures that are more than nothing: noughts in every row would hide them.
