@@ -23,6 +23,8 @@ struct Run {
 Run run_along(const TriMesh& mesh, int a, int b, const SizeField& size)
 {
     const double length = (mesh.position.col(b) - mesh.position.col(a)).norm();
+    if (!size.grows_in_long_faces()) // in equal pieces of the mean of both ends
+        return {{0, 1}, {0, 2 * length / (size.at_vertex(a) + size.at_vertex(b))}};
     constexpr double step = 0.5; // of an edge
     Run run;
     for (double done = 0; done < length;) {

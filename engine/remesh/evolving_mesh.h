@@ -45,6 +45,7 @@ public:
     double size(Vertex v) const { return size_[size_t(v.idx())]; } ///< of edges there, mm
     double length(Vertex a, Vertex b) const { return (at(a) - at(b)).norm(); }
     bool on_line(Vertex v) const { return on_line_[size_t(v.idx())]; }
+    bool on_chord(Vertex v) const { return on_chord_[size_t(v.idx())]; } ///< not on the given mesh yet
     bool on_line(Edge e) const { return line_edge_[size_t(e.idx())]; }
     std::pair<Vertex, Vertex> ends(Edge e) const;
     Corners triangle(Face f) const;
@@ -142,16 +143,16 @@ private:
     const ClosestPointSearch& search_;
     double sagitta_;
     HalfedgeMesh mesh_;
-    std::vector<int> line_edge_;        ///< per edge: 0, or 1 + the line that it is a part of
-    std::vector<char> on_line_, drop_;  ///< per vertex
-    std::vector<double> size_;          ///< per vertex, mm
-    std::vector<double> share_;         ///< per vertex, of what the size is there by original_size_
-    std::vector<int> face_;             ///< per vertex: a given face that it is or was on
-    std::vector<Tick> changed_;         ///< per vertex
-    std::vector<char> open_;            ///< per vertex
-    Tick now_ = 0, snapshot_tick_ = -1; ///< snapshot_tick_: when finished() was asked last
-    std::vector<int> snapshot_vertex_;  ///< per vertex of the mesh given last
-    std::vector<int> snapshot_face_;    ///< per face its number there, -1: none
+    std::vector<int> line_edge_;                  ///< per edge: 0, or 1 + the line that it is a part of
+    std::vector<char> on_line_, on_chord_, drop_; ///< per vertex
+    std::vector<double> size_;                    ///< per vertex, mm
+    std::vector<double> share_;                   ///< per vertex, of what the size is there by original_size_
+    std::vector<int> face_;                       ///< per vertex: a given face that it is or was on
+    std::vector<Tick> changed_;                   ///< per vertex
+    std::vector<char> open_;                      ///< per vertex
+    Tick now_ = 0, snapshot_tick_ = -1;           ///< snapshot_tick_: when finished() was asked last
+    std::vector<int> snapshot_vertex_;            ///< per vertex of the mesh given last
+    std::vector<int> snapshot_face_;              ///< per face its number there, -1: none
 };
 
 inline EvolvingMesh::Vector EvolvingMesh::at(Vertex v) const

@@ -194,7 +194,7 @@ void smooth(Work& work, const Progress& progress)
         Vector way = sum / weights - mesh.at(v);
         way -= normal.dot(way) * normal;
         constexpr double arrived = 0.003; // of the size
-        if (way.norm() < arrived * mesh.size(v))
+        if (way.norm() < arrived * mesh.size(v) && !mesh.on_chord(v))
             return;
         static const double good_enough = EvolvingMesh::thinness(35 * degrees);
         for (const double share : {1.0, 0.4})

@@ -54,8 +54,11 @@ Asking what_asks(const TriMesh& mesh, const EdgeSizes& sizes)
 
 } // namespace
 
-SizeField::SizeField(const TriMesh& mesh, EdgeSizes sizes) : mesh_(&mesh), sizes_(std::move(sizes))
+SizeField::SizeField(const TriMesh& mesh, EdgeSizes sizes, LongFaces long_faces)
+    : mesh_(&mesh), sizes_(std::move(sizes)), long_faces_(long_faces)
 {
+    if (long_faces == LongFaces::between_corners)
+        return;
     Asking asking = what_asks(mesh, sizes_);
     if (asking.size.empty())
         return;
@@ -78,6 +81,8 @@ SizeField& SizeField::operator=(SizeField&&) noexcept = default;
 /// @param known  mm, of the corners: it does not become less
 double SizeField::beyond(const Eigen::Vector3d& place, double known) const
 {
+    if (long_faces_ == LongFaces::between_corners)
+        return known;
     double best = sizes_.most;
     if (!tree_)
         return best;

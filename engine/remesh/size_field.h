@@ -29,13 +29,17 @@ struct EdgeSizes {
 /// known by its corners: away from all that asks for less edges become longer there.
 class SizeField {
 public:
+    /// What a long face is known by.
+    enum class LongFaces { grow, between_corners };
+
     /// @param mesh  it has to stay
-    SizeField(const TriMesh& mesh, EdgeSizes sizes);
+    SizeField(const TriMesh& mesh, EdgeSizes sizes, LongFaces long_faces = LongFaces::grow);
     ~SizeField();
     SizeField(SizeField&&) noexcept;
     SizeField& operator=(SizeField&&) noexcept;
 
     const EdgeSizes& sizes() const { return sizes_; }
+    bool grows_in_long_faces() const { return long_faces_ == LongFaces::grow; }
     double at_vertex(int v) const { return sizes_.at_vertex[v]; }
     /// mm, at a place of a face
     double in_face(int face, const Eigen::Vector3d& barycentric) const;
@@ -50,6 +54,7 @@ private:
 
     const TriMesh* mesh_;
     EdgeSizes sizes_;
+    LongFaces long_faces_;
     std::unique_ptr<const BoxTree> tree_; ///< over vertices, edges and places that ask for less than
                                           ///< the most, as triangles that are segments; null: none
     std::vector<double> asked_;           ///< mm, by each of them
