@@ -80,6 +80,11 @@ struct Deviation {
     /// where the surface runs on the outer side of the part.
     Eigen::VectorXd at_vertex;
 
+    /// The way that has the greatest distance.
+    const DeviationStatistics& worse() const
+    {
+        return surface_to_mesh.max >= mesh_to_surface.max ? surface_to_mesh : mesh_to_surface;
+    }
     /// The smaller share of both ways.
     double within() const { return std::min(surface_to_mesh.within, mesh_to_surface.within); }
 

@@ -4,29 +4,11 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/actions/remedies.h"
+#include "app/viewer/panels/widgets.h"
+#include "engine/mesh/closest_point.h"
 
 namespace spia::viewer {
 namespace {
-
-/// @returns whether a click asked to see something in the views
-bool doubt_row(Frame& frame, const Doubt& doubt)
-{
-    coloured(palette_of(frame.state.view.dark).warning, doubt.text);
-    if (!doubt.next.empty())
-        muted(frame, doubt.next);
-    const Document& document = frame.state.document;
-    const bool shown = shown_by(doubt.remedy) == document.display.field;
-    if (doubt.button.empty() || shown)
-        return false;
-    ImGui::BeginDisabled(frame.model.busy());
-    const bool pressed = small_button(frame, doubt.button.c_str());
-    note_place(frame, doubt.button);
-    ImGui::EndDisabled();
-    if (pressed)
-        for (Action& action : actions_of(doubt, document))
-            frame.actions.push(std::move(action));
-    return pressed && shown_by(doubt.remedy);
-}
 
 const char* name_of(ChainStep step)
 {
@@ -38,6 +20,43 @@ const char* name_of(ChainStep step)
     case ChainStep::surface: return "NURBS surface";
     }
     return "";
+}
+
+/// @returns whether it was clicked
+bool show_place(Frame& frame, const Doubt& doubt)
+{
+    const auto& part = frame.state.document.session.part;
+    if (!doubt.place || !part || part->mesh.triangles() == 0)
+        return false;
+    const bool pressed = small_button(frame, "Show");
+    note_place(frame, fmt::format("show {}", name_of(doubt.step)));
+    if (!pressed)
+        return false;
+    frame.actions.push(FlyTo{ClosestPointSearch(part->mesh).nearest(*doubt.place).face});
+    return true;
+}
+
+/// @returns whether a click asked to see something in the views
+bool doubt_row(Frame& frame, const Doubt& doubt)
+{
+    coloured(palette_of(frame.state.view.dark).warning, doubt.text);
+    if (!doubt.next.empty())
+        muted(frame, doubt.next);
+    const Document& document = frame.state.document;
+    const bool shown = shown_by(doubt.remedy) == document.display.field;
+    const bool looks = show_place(frame, doubt);
+    if (doubt.button.empty() || shown)
+        return looks;
+    if (doubt.place)
+        beside_if_room(doubt.button.c_str());
+    ImGui::BeginDisabled(frame.model.busy());
+    const bool pressed = small_button(frame, doubt.button.c_str());
+    note_place(frame, doubt.button);
+    ImGui::EndDisabled();
+    if (pressed)
+        for (Action& action : actions_of(doubt, document))
+            frame.actions.push(std::move(action));
+    return looks || (pressed && shown_by(doubt.remedy));
 }
 
 const std::vector<Doubt>& doubts(const Frame& frame)
@@ -54,9 +73,8 @@ void list_of_doubts(Frame& frame)
     ImGui::SetNextWindowSize({std::min(420 * s, ImGui::GetIO().DisplaySize.x - 40 * s), 0});
     if (!ImGui::BeginPopup(list))
         return;
-    if (doubts(frame).empty())
+    if (all_doubt_rows(frame) || doubts(frame).empty())
         ImGui::CloseCurrentPopup();
-    all_doubt_rows(frame);
     ImGui::EndPopup();
 }
 

@@ -35,13 +35,10 @@ std::optional<std::string> far_surface(const Session& session)
     const Deviation& deviation = surface.deviation;
     if (surface.fit || deviation.max() <= usual_tolerance)
         return std::nullopt;
-    const DeviationStatistics& worse = deviation.surface_to_mesh.max >= deviation.mesh_to_surface.max
-                                           ? deviation.surface_to_mesh
-                                           : deviation.mesh_to_surface;
     return fmt::format(
         "the surface is up to {:.3g} mm from the part, near ({}), on {} of its area by more than the "
         "usual tolerance of {:.3g} mm: ask for a tolerance of the surface ({}), for patches ({}), or for more cells ({})",
-        deviation.max(), place_text(worse.where), percent(1 - deviation.within()), usual_tolerance,
+        deviation.max(), place_text(deviation.worse().where), percent(1 - deviation.within()), usual_tolerance,
         mention(option::tolerance), mention(option::patches, "auto"), mention(option::grid));
 }
 

@@ -27,7 +27,7 @@ TEST_F(ReadingByHand, ARefusedPartShowsItsFaultAndIsMended)
 {
     shapes::write_mesh(folder / "two.obj", shapes::two_rectangles());
     start((folder / "two.obj").string());
-    hands->see("Refused: 1 mesh fault");
+    hands->see("Refused: 1 fault");
     hands->click("Show");
     hands->see_that("a place of the fault", [](const Json& r) { return r["doctor"].contains("shown"); });
     hands->click("Shown");

@@ -67,6 +67,20 @@ TEST_F(CornerChoice, ADraggedCornerCountsAsOneChangeAndEndsWithAFullGrid)
     EXPECT_EQ(document.session.grid->boundary.corner, before);
 }
 
+TEST_F(CornerChoice, ACornerThatIsDroppedWhereItWasIsNoChange)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const auto grid = document.session.grid;
+    model.apply(SetCorner{1, grid->boundary.corner[1], false});
+    EXPECT_FALSE(document.unsaved);
+    EXPECT_FALSE(model.busy());
+    EXPECT_NE(state.history.undo_name(), "Move corner 2");
+    EXPECT_EQ(document.session.grid, grid);
+    EXPECT_TRUE(says(Severity::hint, "Corner 2 stays where it is"));
+}
+
 TEST_F(CornerChoice, WhileACornerIsDraggedTheQuadsFollowAndTheLastSurfaceStaysAndIsCalledOld)
 {
     open();

@@ -119,6 +119,9 @@ TEST_F(Lights, ASurfaceOutOfToleranceOffersAFitWithinIt)
     const auto far = of(ChainStep::surface);
     ASSERT_FALSE(far.empty());
     EXPECT_THAT(far[0].text, HasSubstr("deviates from the part by up to"));
+    const Deviation& deviation = document.session.surface->deviation;
+    EXPECT_EQ(deviation.worse().max, deviation.max());
+    EXPECT_EQ(far[0].place, deviation.worse().where) << "what Show flies to";
     EXPECT_FALSE(readiness(state).fine);
     press(far[0]);
     ASSERT_TRUE(document.session.surface->fit);

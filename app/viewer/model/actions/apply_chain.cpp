@@ -200,7 +200,8 @@ void ViewerModel::Apply::require_one_patch() const
 
 void ViewerModel::Apply::operator()(const SetCorner& action)
 {
-    model.dragging_ = false; // whatever comes: the next grid is a fine one
+    // whatever comes: the next grid is a fine one
+    const bool on_the_way = std::exchange(model.dragging_, false);
     if (!session.blank)
         throw InputError("Unfold the part first; then its corners can be chosen.");
     if (action.corner < 0 || action.corner > 3)
@@ -221,6 +222,12 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
                 model.run_to(Stage::fit, "Making the grid");
             return;
         }
+    if (!on_the_way && corners[size_t(action.corner)] == in_file) {
+        model.say(Severity::hint, fmt::format("Corner {} stays where it is: corners lie at vertices of the mesh, and "
+                                              "no other one of the outline is nearer to the mouse.",
+                                              action.corner + 1));
+        return;
+    }
     const bool unsaved = state.document.unsaved;
     change(fmt::format("Move corner {}", action.corner + 1), true);
     if (!action.dragging)

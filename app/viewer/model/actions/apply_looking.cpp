@@ -131,6 +131,8 @@ void ViewerModel::Apply::look_at(const std::vector<int>& vertices, double at_lea
             continue;
         Camera& camera = state.view.camera[size_t(view)];
         camera.target = view == View::blank ? middle(session.blank->blank.position) : middle(mesh.position);
+        if (view != View::blank)
+            camera.turn = clear_sight(mesh, {camera.target.x, camera.target.y, camera.target.z}, camera.turn);
         camera.height = std::min(camera.height, size);
     }
 }

@@ -162,6 +162,11 @@ void judge_cells(const Document& document, std::vector<Doubt>& doubts)
         doubt.button = "Use the harmonic method";
         doubt.remedy = Remedy::harmonic_grid;
     }
+    const auto [i, j] = grid.planar.column_and_row(grid.quality.worst_cell);
+    if (const MeshPoint& node = grid.place[size_t(grid.planar.node(i, j))]; node.face >= 0) {
+        const TriMesh& mesh = grid.filled->mesh;
+        doubt.place = mesh.position(Eigen::all, mesh.triangle.col(node.face)) * node.barycentric;
+    }
     doubts.push_back(std::move(doubt));
 }
 
@@ -170,6 +175,7 @@ void answer_shortfall(const Document& document, const SurfaceStage& surface, Len
 {
     const SessionOptions& options = document.session.options;
     const double reached = reached_tolerance(surface);
+    doubt.place = surface.deviation.worse().where;
     doubt.next = fmt::format("Or raise the tolerance to {}.", length_text(reached, lengths, 3));
     switch (surface.fit->shortfall.reason) {
     case FitShortfall::Reason::sharp_edge:
@@ -215,8 +221,8 @@ void judge_distance(const Document& document, LengthUnit lengths, std::vector<Do
                      "tolerance, {}.",
                      length_text(verdict.greatest, lengths, 3), area_share(verdict.beyond),
                      length_text(verdict.tolerance, lengths, 3)),
-         "", fmt::format("Fit it within {}", length_text(verdict.tolerance, lengths, 3)),
-         Remedy::fit_within_tolerance});
+         "", fmt::format("Fit it within {}", length_text(verdict.tolerance, lengths, 3)), Remedy::fit_within_tolerance,
+         surface.deviation.worse().where});
 }
 
 /// A surface with more control points than the part has vertices is bent along the facets of the
@@ -275,14 +281,18 @@ void judge_folds(const Document& document, std::vector<Doubt>& doubts)
     if (!folded)
         return;
     // the way out is a click here
-    const std::string text = sentence(folded->substr(0, folded->rfind(';')));
-    if (document.session.options.patches) {
-        doubts.push_back({ChainStep::surface, text, "Add a cut there with the tool Vertex, or choose \"one patch\"."});
-        return;
+    Doubt doubt{ChainStep::surface, sentence(folded->substr(0, folded->rfind(';')))};
+    for (const PatchCertificate& patch : surface_certificate(document.session).patch)
+        if (patch.refusal && !doubt.place)
+            doubt.place = patch.refusal->place.position;
+    if (document.session.options.patches)
+        doubt.next = "Add a cut there with the tool Vertex, or choose \"one patch\".";
+    else {
+        doubt.next = "Drag the corners to sharp corners of the blank, or:";
+        doubt.button = fmt::format("Make the grid of {} cells", finer_cells(document.session.options.grid));
+        doubt.remedy = Remedy::finer_grid;
     }
-    doubts.push_back({ChainStep::surface, text, "Drag the corners to sharp corners of the blank, or:",
-                      fmt::format("Make the grid of {} cells", finer_cells(document.session.options.grid)),
-                      Remedy::finer_grid});
+    doubts.push_back(std::move(doubt));
 }
 
 /// The first step of the list that has no good result; empty: none.

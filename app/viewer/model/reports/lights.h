@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,7 @@ struct Doubt {
                              ///< button
     std::string button = {}; ///< what the remedy is called; empty: there is none
     Remedy remedy = Remedy::none;
+    std::optional<Eigen::Vector3d> place = {}; ///< mm, where it is on the part; not given: no one place
 };
 
 /// What the doubts are found in: as long as all of it stays, they do.

@@ -84,7 +84,9 @@ void unsaved_dialog(Frame& frame)
         ui.confirmed = without_saving;
         return *std::exchange(ui.held, std::nullopt);
     };
-    const auto chosen = stacked_answers(frame, {{"Save..."}, {"Continue without saving"}, {"Cancel"}});
+    const auto chosen = stacked_answers(frame, {{project.empty() ? "Save..." : "Save"},
+                                                {ui.held ? "Quit without saving" : "Continue without saving"},
+                                                {"Cancel"}});
     if (chosen)
         ImGui::CloseCurrentPopup();
     end_dialog();

@@ -330,10 +330,10 @@ void doctor_panel(Frame& frame)
     const auto fatal = std::count_if(findings.begin(), findings.end(),
                                      [](const Finding& f) { return f.severity == spia::Severity::fatal; });
     const size_t count = notes.size() + findings.size();
-    const std::string title =
-        refused      ? fmt::format("Refused: {}", fatal == 1 ? "1 mesh fault" : fmt::format("{} mesh faults", fatal))
-             : count == 1 ? "1 note on the file"
-                     : fmt::format("{} notes on the file", count);
+    const std::string title = refused
+                                  ? fmt::format("Refused: {}", fatal == 1 ? "1 fault" : fmt::format("{} faults", fatal))
+                              : count == 1 ? "1 note on the file"
+                                           : fmt::format("{} notes on the file", count);
     // What can be done better with one click is not hidden behind another.
     const auto has_fix = [&](const Finding& f) { return fix_of(frame, f) != Fix::none; };
     const bool fixes = std::any_of(findings.begin(), findings.end(), has_fix);

@@ -43,8 +43,10 @@ void certificate_rows(Frame& frame, const Certificate& certificate)
     ImGui::PushStyleColor(ImGuiCol_Text, why_not ? p.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
     figure(frame, "Folds", why_not ? "perhaps, not proved" : "none (proved)");
     ImGui::PopStyleColor();
-    tooltip(why_not ? engine_words(frame, *why_not)
-                    : "The surface normal never vanishes or flips; proved by the Bezier coefficients of every span");
+    tooltip(
+        why_not
+            ? engine_words(frame, *why_not)
+            : "Within each patch the surface normal never vanishes or flips; proved by the Bezier coefficients of every span. Whether it looks to the side of the part is measured beside this.");
     if (certificate.patch.empty())
         return;
     const CertificateFigures figures = certificate_figures(certificate);
