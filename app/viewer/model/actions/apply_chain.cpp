@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <utility>
 
 #include "app/viewer/model/document/chain.h"
 #include "engine/part/vertex_numbers.h"

@@ -1,6 +1,5 @@
 #include "app/viewer/model/actions/apply.h"
 
-#include <algorithm>
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/recent_files.h"
