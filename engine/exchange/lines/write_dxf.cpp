@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "engine/core/angle.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/exchange/lines/dxf_text.h"

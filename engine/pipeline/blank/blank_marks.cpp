@@ -76,7 +76,8 @@ private:
     void end_row()
     {
         if (row_.size() > 1) {
-            Eigen::Matrix2Xd& row = marks.emplace_back(Eigen::Matrix2Xd(2, Eigen::Index(row_.size())), label_).line;
+            marks.push_back({Eigen::Matrix2Xd(2, Eigen::Index(row_.size())), label_});
+            Eigen::Matrix2Xd& row = marks.back().line;
             for (size_t k = 0; k < row_.size(); ++k)
                 row.col(Eigen::Index(k)) = row_[k];
         }
