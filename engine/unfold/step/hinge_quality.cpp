@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 
@@ -37,6 +38,19 @@ Eigen::VectorXd facet_turns(const TriMesh& state, const std::vector<int>& faces)
     return turn;
 }
 
+/// Vertices of the part, the lower one first; ascending.
+std::vector<std::array<int, 2>> hinge_edges(const std::vector<FreedPiece>& pieces)
+{
+    std::vector<std::array<int, 2>> edges;
+    for (const FreedPiece& piece : pieces)
+        for (const auto& [a, b] : piece.hinge) {
+            const auto [lower, upper] = std::minmax(piece.vertex[size_t(a)], piece.vertex[size_t(b)]);
+            edges.push_back({lower, upper});
+        }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
 } // namespace
 
 TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const std::vector<int>& fixed,
@@ -48,17 +62,12 @@ TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const s
     for (const FreedPiece& piece : pieces)
         for (const int v : piece.held)
             held[size_t(piece.vertex[size_t(v)])] = 1;
+    const auto hinge = hinge_edges(pieces);
     const double limit = too_far * bounding_diagonal(state);
     const Eigen::VectorXd turn = facet_turns(state, fixed);
     for (const int f : fixed) {
-        const Eigen::Matrix3d c = state.position(Eigen::all, state.triangle.col(f));
-        const Eigen::Vector3d normal = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
-        double chord = 0; // not every vertex on the hinge of a fillet has one of its faces' long
-                          // edges
-        for (const int v : state.triangle.col(f))
-            if (held[size_t(v)])
-                chord = std::max(chord, turn[v] / 2);
-        for (const int v : state.triangle.col(f))
+        const auto t = state.triangle.col(f);
+        for (const int v : t)
             if (held[size_t(v)]) {
                 const Eigen::Vector3d x = state.position.col(v);
                 const double off = (x - placed(face, developed(face, x))).norm();
@@ -67,8 +76,22 @@ TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const s
                         "the fixed face {} ends {:.3g} mm off the target, where freed faces are joined to it; {}", f,
                         off, mention(advice::common_edge)));
                 fit.distance_mm = std::max(fit.distance_mm, off);
-                fit.angle = std::max(fit.angle, angle_between(outer_normal(face, x), normal) - chord);
             }
+        double chord = 0; // not every vertex on the hinge of a fillet has one of its faces' long
+                          // edges
+        for (const int v : t)
+            if (held[size_t(v)])
+                chord = std::max(chord, turn[v] / 2);
+        const Eigen::Matrix3d c = state.position(Eigen::all, t);
+        const Eigen::Vector3d normal = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
+        for (int k = 0; k < 3; ++k) {
+            const int a = t[k], b = t[(k + 1) % 3];
+            if (!std::binary_search(hinge.begin(), hinge.end(), std::array{std::min(a, b), std::max(a, b)}))
+                continue;
+            for (const int v : {a, b})
+                fit.angle =
+                    std::max(fit.angle, angle_between(outer_normal(face, state.position.col(v)), normal) - chord);
+        }
     }
     return fit;
 }

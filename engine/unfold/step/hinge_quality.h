@@ -7,9 +7,10 @@
 namespace spia {
 
 /// How well a target goes on from the fixed faces where freed ones are joined to them: its greatest
-/// distance from the held vertices, and the greatest angle between its normals there and those of
-/// the fixed faces around them, less what is only the chord of a bend: half of what the fixed faces
-/// around a held vertex turn from one to the next.
+/// distance from the held vertices, and the greatest angle between its normals and those of the
+/// fixed faces along the edges that they share with freed ones, less what is only the chord of a
+/// bend: half of what the fixed faces around a held vertex turn from one to the next. A fixed face
+/// that only touches the end of the hinge, as that of another bend does, may stand at any angle.
 /// @param state the part as it is before the step
 /// @param fixed ascending
 /// @throws InputError if a held vertex is farther beside the target than 1e-3 of the part; names a

@@ -75,4 +75,19 @@ TEST(HingeQuality, AFlatNeighbourTakesNothingOffAndASharpEdgeBesideTheHingeNeith
     EXPECT_NEAR(hinge_quality(tilted(10, 0), part, pick.fixed, pieces).angle, 0, 1e-12);
 }
 
+TEST(HingeQuality, AFaceThatOnlyTouchesTheEndOfTheHingeIsNoCrease)
+{
+    // The second square has a flange along the side that begins where the hinge ends, at any angle.
+    for (const double up : {6., 30., 90.}) {
+        const Eigen::Vector3d rise(0, -10 * std::cos(up * degree), 10 * std::sin(up * degree));
+        const Eigen::Vector3d a(10, 0, 0), b(20, 0, 0);
+        const TriMesh part = shapes::patchwork({{{Eigen::Vector3d(0, 0, 0), {10, 0, 0}, {10, 20, 0}, {0, 20, 0}}, 1, 2},
+                                                {{a, {20, 0, 0}, {20, 20, 0}, {10, 20, 0}}, 1, 2},
+                                                {{a, a + rise, b + rise, b}, 1, 1}});
+        const Split pick = split(part, [](const Eigen::Vector3d& at) { return at[0] > 10; });
+        const std::vector<FreedPiece> pieces = freed_pieces(part, pick.fixed, pick.freed);
+        EXPECT_NEAR(hinge_quality(tilted(10, 0), part, pick.fixed, pieces).angle, 0, 1e-12) << up;
+    }
+}
+
 } // namespace spia
