@@ -69,6 +69,15 @@ int crossings(const std::vector<Eigen::Vector2d>& polygon)
     return count;
 }
 
+constexpr double rounding_deg = 1e-6;
+
+/// From a to b, counter-clockwise.
+double inner_angle_deg(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+    const double angle = std::atan2(cross(a, b), a.dot(b)) * 180 / std::numbers::pi;
+    return angle > 0 ? angle : angle + 360;
+}
+
 } // namespace
 
 double corner_angle_deg(const QuadGrid& q, int k)
@@ -80,17 +89,50 @@ double corner_angle_deg(const QuadGrid& q, int k)
                                                        {q.node(0, n), q.node(0, n - 1), q.node(1, n)}}};
     const Eigen::Vector3d a = q.position.col(corner[size_t(k)][1]) - q.position.col(corner[size_t(k)][0]);
     const Eigen::Vector3d b = q.position.col(corner[size_t(k)][2]) - q.position.col(corner[size_t(k)][0]);
-    const double angle = std::atan2(a.cross(b).z(), a.dot(b)) * 180 / std::numbers::pi;
-    return angle > 0 ? angle : angle + 360;
+    return inner_angle_deg(a.head<2>(), b.head<2>());
 }
 
 int impossible_corner(const QuadGrid& grid)
 {
-    constexpr double rounding_deg = 1e-6;
     for (int k = 0; k < 4; ++k)
         if (corner_angle_deg(grid, k) > 180 - rounding_deg)
             return k;
     return -1;
+}
+
+std::optional<StraightCorner> straight_corner(const FilledMesh& filled, const BlankBoundary& boundary, int columns,
+                                              int rows, double reach)
+{
+    // Places of a side, from a corner on.
+    const auto near = [&](std::vector<int> side, bool backwards, int cells) {
+        if (backwards)
+            std::reverse(side.begin(), side.end());
+        const auto at = [&](size_t i) -> Eigen::Vector2d { return filled.plane.col(side[i]); };
+        double whole = 0, walked = 0;
+        for (size_t i = 1; i < side.size(); ++i)
+            whole += (at(i) - at(i - 1)).norm();
+        const double most = reach * whole / cells;
+        std::vector<Eigen::Vector2d> places;
+        for (size_t i = 1; i < side.size() && walked < most; ++i) {
+            const Eigen::Vector2d step = at(i) - at(i - 1);
+            places.push_back(at(i - 1) + std::min(1., (most - walked) / step.norm()) * step);
+            walked += step.norm();
+        }
+        return places;
+    };
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector2d corner = filled.plane.col(boundary.corner[size_t(k)]);
+        const int along = k % 2 == 0 ? columns : rows, before = k % 2 == 0 ? rows : columns;
+        const auto next = near(boundary.side[size_t(k)], false, along),
+                   last = near(boundary.side[size_t(k + 3) % 4], true, before);
+        double least = 360;
+        for (const Eigen::Vector2d& a : next)
+            for (const Eigen::Vector2d& b : last)
+                least = std::min(least, inner_angle_deg(a - corner, b - corner));
+        if (least > 180 - rounding_deg)
+            return StraightCorner{k, least};
+    }
+    return std::nullopt;
 }
 
 bool follows_outline(const GridResult& grid, bool overlaps)

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,15 @@ double corner_angle_deg(const QuadGrid& grid, int k);
 
 /// The first corner at which no grid with these border nodes can have a cell, or -1.
 int impossible_corner(const QuadGrid& grid);
+
+struct StraightCorner {
+    int corner;
+    double angle_deg; ///< least inner angle of the outline there
+};
+/// The first corner into which no cell fits wherever its border nodes slide: seen from it no place
+/// of the one side is less than half a turn from any of the other, within `reach` cells.
+std::optional<StraightCorner> straight_corner(const FilledMesh& filled, const BlankBoundary& boundary, int columns,
+                                              int rows, double reach);
 
 /// Whether the cells are small enough to follow the outline: their border turns around once, has
 /// about the area of the blank and hardly crosses itself.

@@ -220,18 +220,33 @@ double outline_over_square(const GridContext& context)
     return length / (4 * std::sqrt(std::max(area, 1e-300)));
 }
 
+/// For people, who count corners from 1.
+std::string corner_words(const GridContext& context, int k, std::span<const int> file_number)
+{
+    const int v = context.boundary.corner[size_t(k)];
+    return fmt::format("corner {} (vertex {})", k + 1, file_number.empty() ? v : file_number[size_t(v)]);
+}
+
+/// What the maps would find only after they are made.
+void require_corners(const GridContext& context, int columns, int rows, std::span<const int> file_number)
+{
+    if (const auto found = straight_corner(*context.filled, context.boundary, columns, rows, 1 + slides.back()))
+        throw InputError(fmt::format("no cell fits into {}: the outline of the blank does not turn outwards there "
+                                     "(inner angle {:.0f} degrees); choose a corner where it is convex, or let the "
+                                     "corners be proposed",
+                                     corner_words(context, found->corner, file_number), found->angle_deg));
+}
+
 [[noreturn]] void throw_impossible(const GridContext& context, const GridResult& grid, std::span<const int> file_number)
 {
     const auto number = [&](int v) { return file_number.empty() ? v : file_number[size_t(v)]; };
     const auto& corner = context.boundary.corner;
     const int m = grid.planar.columns, n = grid.planar.rows;
     if (const int k = impossible_corner(grid.planar); k >= 0)
-        throw InputError(fmt::format("the {} x {} grid folds at corner vertex {}: the outline does not turn "
-                                     "outwards there (inner angle {:.0f} "
-                                     "degrees at the size of a cell), and no cell fits into such a place; "
-                                     "choose a corner where the outline is "
-                                     "convex, or let the corners be proposed",
-                                     m, n, number(corner[size_t(k)]), corner_angle_deg(grid.planar, k)));
+        throw InputError(fmt::format("the {} x {} grid folds at {}: the outline does not turn outwards there (inner "
+                                     "angle {:.0f} degrees at the size of a cell), and no cell fits into such a place; "
+                                     "choose a corner where the outline is convex, or let the corners be proposed",
+                                     m, n, corner_words(context, k, file_number), corner_angle_deg(grid.planar, k)));
     if (!follows_outline(grid, context.blank.overlaps_itself())) {
         if (const auto [vertex, angle_deg] = widest_vertex(*context.filled); angle_deg > 360)
             throw InputError(fmt::format(
@@ -321,6 +336,9 @@ GridResult sound_grid(GridContext& context, const GridOptions& options, const Pr
     int columns = 0, rows = 0;
     choose_counts(context, options, columns, rows);
     const bool may_refine = options.columns == 0 && options.rows == 0;
+
+    if (options.method != GridMethod::coons) // that may be asked for however it folds
+        require_corners(context, columns, rows, file_number);
 
     GridResult grid;
     const auto coons = [&](AttemptReport& own) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <complex>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "engine/coons/boundary.h"
@@ -19,13 +20,14 @@ GridResult grid_of(const TriMesh& part, const Blank& blank, const GridOptions& o
     return coons_grid(part, blank, split_boundary(blank, part, propose_corners(blank, part)), options);
 }
 
-GridResult grid_of(const TriMesh& flat, const std::vector<Eigen::Vector2d>& corners, const GridOptions& options = {})
+GridResult grid_of(const TriMesh& flat, const std::vector<Eigen::Vector2d>& corners, const GridOptions& options = {},
+                   const Progress& progress = {})
 {
     std::array<int, 4> vertices;
     for (size_t k = 0; k < 4; ++k)
         vertices[k] = outlines::nearest_vertex(flat, corners[k]);
     const Blank blank = outlines::as_blank(flat);
-    return coons_grid(flat, blank, split_boundary(blank, flat, vertices), options);
+    return coons_grid(flat, blank, split_boundary(blank, flat, vertices), options, progress);
 }
 
 double cell_area(const QuadGrid& grid)
@@ -253,6 +255,22 @@ TEST(CoonsGrid, ACornerInAReentrantPlaceIsNamed)
         EXPECT_NE(message.find(std::to_string(outlines::nearest_vertex(part, {3, 3}))), std::string::npos) << message;
         EXPECT_NE(message.find("270"), std::string::npos) << message;
     }
+}
+
+TEST(CoonsGrid, ACornerOnAStraightEdgeIsNamedBeforeAnyMapIsMade)
+{
+    const TriMesh part = outlines::part(outlines::l_shape(10, 3, 0.25));
+    std::string steps;
+    const Progress watched([&](double, std::string_view step) { steps += step; });
+    try {
+        grid_of(part, {{0, 0}, {5, 0}, {10, 3}, {0, 10}}, {}, watched);
+        ADD_FAILURE() << "a corner of 180 degrees cannot be the corner of a cell";
+    } catch (const InputError& error) {
+        const std::string message = error.what(),
+                          corner = fmt::format("corner 2 (vertex {})", outlines::nearest_vertex(part, {5, 0}));
+        EXPECT_NE(message.find(corner), std::string::npos) << message;
+    }
+    EXPECT_EQ(steps.find("map"), std::string::npos) << steps;
 }
 
 TEST(CoonsGrid, IsTheSameWhenAskedTwice)
