@@ -61,7 +61,7 @@ void crack_line(Frame& frame)
             ? "Choose a curve in Forming limits below, or give the points of one with the material."
             : "Highest engineering major strain, in percent of the forming limit curve at the same minor strain. The "
               "zones are in Forming limits below.");
-    if (verdict.face >= 0 && verdict.kind != Kind::safe && small_button(frame, "Show the place"))
+    if (verdict.face >= 0 && verdict.kind != Kind::safe && small_button(frame, "Show"))
         frame.actions.push(FlyTo{verdict.face});
     ImGui::Dummy({0, 2 * frame.ui.scale});
 }
@@ -83,9 +83,7 @@ void field_section(Frame& frame)
                 continue; // seven lines that few ask for
             ImGui::BeginDisabled(!possible);
             if (ImGui::Selectable(std::string(field.label).c_str(), field.field == display.field)) {
-                display.field = field.field;
-                display.range.reset();
-                display.map = frame.state.preferences.map;
+                display = with_field(display, field.field, frame.state.preferences.map);
                 changed = true;
             }
             ImGui::EndDisabled();

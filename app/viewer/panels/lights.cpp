@@ -32,7 +32,7 @@ bool show_place(Frame& frame, const Doubt& doubt)
     note_place(frame, fmt::format("show {}", name_of(doubt.step)));
     if (!pressed)
         return false;
-    frame.actions.push(FlyTo{ClosestPointSearch(part->mesh).nearest(*doubt.place).face});
+    frame.actions.push(FlyTo{ClosestPointSearch(part->mesh).nearest(*doubt.place).face, doubt.field});
     return true;
 }
 
@@ -43,9 +43,8 @@ bool doubt_row(Frame& frame, const Doubt& doubt)
     if (!doubt.next.empty())
         muted(frame, doubt.next);
     const Document& document = frame.state.document;
-    const bool shown = shown_by(doubt.remedy) == document.display.field;
     const bool looks = show_place(frame, doubt);
-    if (doubt.button.empty() || shown)
+    if (doubt.button.empty())
         return looks;
     if (doubt.place)
         beside_if_room(doubt.button.c_str());
@@ -56,7 +55,7 @@ bool doubt_row(Frame& frame, const Doubt& doubt)
     if (pressed)
         for (Action& action : actions_of(doubt, document))
             frame.actions.push(std::move(action));
-    return looks || (pressed && shown_by(doubt.remedy));
+    return looks;
 }
 
 const std::vector<Doubt>& doubts(const Frame& frame)

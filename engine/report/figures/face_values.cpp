@@ -25,9 +25,13 @@ bool is_stress(Field field)
 }
 
 /// @param strained the greatest equivalent strain of the sheet
-FaceValues said(Eigen::VectorXd value, Field field, double size, double strained)
+/// @param sheet  null: nothing is strained yet
+FaceValues said(Eigen::VectorXd value, Field field, double size, const SheetFields* sheet)
 {
     FaceValues result{std::move(value)};
+    const double strained = sheet ? sheet->strain_equivalent.maxCoeff() : 0;
+    if (field == Field::necking && sheet) // which is 0 or 1
+        result.order = sheet->strain_equivalent;
     const double floor = noise(field, size);
     const bool nothing = is_stress(field) && strained < noise(Field::strain_equivalent, size);
     for (int f = 0; f < result.value.size(); ++f) {
@@ -119,14 +123,12 @@ FaceValues face_values(const Session& session, Field field)
     const TriMesh& part = session.part->mesh;
     if (field == Field::deviation)
         raise_to_greatest(part, session.surface->deviation, value);
-    const double strained = session.blank ? session.blank->face.strain_equivalent.maxCoeff() : 0;
-    return said(std::move(value), field, bounding_diagonal(part), strained);
+    return said(std::move(value), field, bounding_diagonal(part), session.blank ? &session.blank->face : nullptr);
 }
 
 FaceValues face_values(const TriMesh& part, const SheetFields& of_face, Field field)
 {
-    return said(values(part, of_face, field, true), field, bounding_diagonal(part),
-                of_face.strain_equivalent.maxCoeff());
+    return said(values(part, of_face, field, true), field, bounding_diagonal(part), &of_face);
 }
 
 std::optional<double> margin_of(const LimitsResult& limits, int face)
@@ -141,7 +143,9 @@ std::vector<int> worst_faces(const TriMesh& part, const FaceValues& values, Fiel
         return {};
     const auto [least, greatest] = values.extremes();
     const double floor = noise(field, bounding_diagonal(part));
-    const Eigen::VectorXd bad = values.value.unaryExpr([&](double value) { return badness(field, value); });
+    Eigen::VectorXd bad = values.value.unaryExpr([&](double value) { return badness(field, value); });
+    if (values.order.size())
+        bad = (bad.array() > 0).select(values.order, 0.0);
     if (!has_zero(field) && !(greatest - least > floor)) // the same everywhere
         return {};
     std::vector<int> faces = worst_spots(part, bad, most, false);

@@ -86,14 +86,18 @@ TEST(ExportCheck, IsGreenOnlyWhereNoLightHoldsAnythingAgainstTheResult)
     ViewerState state;
     state.document.session = with_deviation(0.08, 1, 1);
     const FitVerdict fits = fit_verdict(state.document.session);
-    EXPECT_EQ(export_verdict(state, fits).kind, Kind::good);
+    EXPECT_EQ(export_verdict(state, fits, true).kind, Kind::good);
     state.doubts = std::make_shared<std::vector<Doubt>>(
         std::vector<Doubt>{{ChainStep::unfold, "It has not converged."}, {ChainStep::surface, "It may have a fold."}});
-    const ExportVerdict doubted = export_verdict(state, fits);
+    const ExportVerdict doubted = export_verdict(state, fits, true);
     EXPECT_EQ(doubted.kind, Kind::warning);
     EXPECT_EQ(doubted.doubts, 2u);
     EXPECT_EQ(doubted.headline, "The surface is within tolerance; 2 things to look at");
-    EXPECT_EQ(export_verdict(state, fit_verdict(with_deviation(5, 0, 0))).kind, Kind::bad);
+    const FitVerdict far = fit_verdict(with_deviation(5, 0, 0));
+    EXPECT_EQ(export_verdict(state, far, true).kind, Kind::bad);
+    const ExportVerdict flat = export_verdict(state, far, false);
+    EXPECT_EQ(flat.kind, Kind::warning) << "the blank alone is written";
+    EXPECT_THAT(flat.text, HasSubstr("None of the files chosen holds it"));
 }
 
 } // namespace spia::viewer

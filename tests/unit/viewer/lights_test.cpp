@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 
 #include "app/viewer/model/actions/remedies.h"
+#include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
+#include "engine/report/figures/face_values.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"
@@ -149,10 +151,26 @@ TEST_F(Lights, CracksAndForbiddenThinningAreAmberAndShowTheirZones)
     const Doubt doubt = of(ChainStep::unfold)[0];
     EXPECT_THAT(doubt.text, HasSubstr(thinner == 1 ? "1 face is thinner"
                                                    : fmt::format("{} faces exceed the allowed thinning", thinner)));
-    EXPECT_EQ(shown_by(doubt.remedy), Field::zone);
-    press(doubt);
+    EXPECT_EQ(doubt.field, Field::zone);
+    ASSERT_TRUE(doubt.place);
+    const WorstSpot& worst = document.session.limits->zones.spots.front();
+    EXPECT_EQ(*doubt.place, worst.position);
+    const FieldDisplay before = document.display;
+    model.apply(FlyTo{worst.face, doubt.field});
     EXPECT_EQ(document.display.field, Field::zone);
-    model.apply(Undo{}); // of the display
+    model.apply(HideSpot{});
+    EXPECT_EQ(document.display, before) << "Esc goes back in all";
+    model.apply(FlyTo{worst.face, doubt.field});
+    model.apply(FlyTo{0});
+    model.apply(HideSpot{});
+    EXPECT_EQ(document.display, before) << "past both spots";
+    model.apply(FlyTo{worst.face, doubt.field});
+    FieldDisplay chosen = document.display;
+    chosen.field = Field::thickness;
+    model.apply(SetDisplay{chosen});
+    model.apply(HideSpot{});
+    EXPECT_EQ(document.display.field, Field::thickness) << "chosen since";
+    model.apply(Undo{}); // of the displays
     model.apply(Undo{});
     EXPECT_TRUE(of(ChainStep::unfold).empty()) << all();
 }
@@ -267,11 +285,25 @@ TEST_F(Lights, WhereTheStrainIsBeyondTheCurveIsGoneTo)
     open();
     confirm_sheet();
     run(Stage::solve);
-    press({ChainStep::unfold, "strained beyond", "", "Show where", Remedy::show_necking});
-    EXPECT_EQ(document.display.field, Field::necking);
-    ASSERT_TRUE(state.spot);
-    const auto& strain = document.session.blank->face.strain_equivalent;
-    EXPECT_EQ(strain[state.spot->face], strain.maxCoeff());
+    Document beyond = document;
+    auto flat = std::make_shared<FlattenResult>(*document.session.blank);
+    auto& strain = flat->face.strain_equivalent;
+    int worst = 0;
+    strain.maxCoeff(&worst);
+    const TriMesh& mesh = document.session.part->mesh;
+    for (const int f : {0, mesh.triangles() / 2, worst})
+        flat->face.necking[f] = 1;
+    flat->necking_triangles = int(flat->face.necking.sum());
+    beyond.session.blank = flat;
+    const auto doubts = find_doubts(beyond);
+    const auto found = std::ranges::find(doubts, std::optional(Field::necking), &Doubt::field);
+    ASSERT_NE(found, doubts.end());
+    EXPECT_THAT(found->text, HasSubstr("strained beyond"));
+    ASSERT_TRUE(found->place);
+    EXPECT_EQ(ClosestPointSearch(mesh).nearest(*found->place).face, worst);
+    const auto listed = worst_faces(mesh, face_values(beyond.session, Field::necking), Field::necking, 6);
+    ASSERT_FALSE(listed.empty());
+    EXPECT_EQ(listed.front(), worst) << "as Worst spots lists them";
 }
 
 TEST_F(Lights, ABlankThatHasNotConvergedSaysWhyAndWhatNext)

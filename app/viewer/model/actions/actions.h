@@ -420,12 +420,14 @@ struct LookFromSide {
     View view = View::part;
     std::array<int, 3> side = {0, 0, 1};
 };
+/// "fly_to": every view shows this face in its middle, with a mark; what is picked stays
 struct FlyTo {
     int face = 0;
-};                  ///< "fly_to": every view shows this face in its middle, with a mark; what is
-                    ///< picked stays
-struct HideSpot {}; ///< "hide_spot": the mark of fly_to goes, and the views that were not moved
-                    ///< since go back
+    std::optional<Field> field = {}; ///< that shows what is there; not given: the one that is shown
+};
+/// "hide_spot": the mark of fly_to goes, the views that were not moved since go back, and so does
+/// the field
+struct HideSpot {};
 struct FlyToVertex {
     int vertex = 0;
 }; ///< "fly_to_vertex": likewise; what is picked stays

@@ -76,8 +76,15 @@ void ViewerModel::Apply::operator()(const FlyTo& action)
         throw InputError(fmt::format("The part has no face {}.", action.face));
     const auto t = mesh.triangle.col(action.face);
     const std::array<Camera, 4> before = left_at(state.spot ? &state.spot->back : nullptr);
+    const FieldDisplay other =
+        state.spot && state.spot->since == document.display ? state.spot->before : document.display;
+    if (action.field && *action.field != document.display.field) {
+        SetDisplay display{with_field(document.display, *action.field, state.preferences.map)};
+        display.display.difference = false; // a limit is held against values
+        (*this)(display);
+    }
     look_at({t[0], t[1], t[2]}, bend_around(session, action.face));
-    state.spot = ShownSpot{action.face, {before, state.view.camera}, session.part};
+    state.spot = ShownSpot{action.face, {before, state.view.camera}, other, document.display, session.part};
 }
 
 void ViewerModel::Apply::operator()(const HideSpot&)
@@ -85,6 +92,8 @@ void ViewerModel::Apply::operator()(const HideSpot&)
     if (!state.spot)
         return;
     go_back(state.spot->back);
+    if (document.display == state.spot->since && !(document.display == state.spot->before))
+        (*this)(SetDisplay{FieldDisplay(state.spot->before)});
     state.spot.reset();
 }
 

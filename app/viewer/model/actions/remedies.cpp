@@ -21,21 +21,7 @@ std::vector<Action> confirmed(const Document& document)
     return actions;
 }
 
-int most_strained(const SheetFields& face)
-{
-    Eigen::Index most = 0;
-    face.strain_equivalent.maxCoeff(&most);
-    return int(most);
-}
-
 } // namespace
-
-std::optional<Field> shown_by(Remedy remedy)
-{
-    if (remedy == Remedy::show_zones)
-        return Field::zone;
-    return remedy == Remedy::show_necking ? std::optional(Field::necking) : std::nullopt;
-}
 
 std::vector<Action> actions_of(const Doubt& doubt, const Document& document)
 {
@@ -52,18 +38,6 @@ std::vector<Action> actions_of(const Doubt& doubt, const Document& document)
         const PartFile& part = *document.session.part;
         const auto unit = likelier_unit(part, bounding_diagonal(part.mesh), options.flatten.thickness);
         return unit ? std::vector<Action>{SetUnit{std::string(name(*unit))}} : std::vector<Action>{};
-    }
-    case Remedy::show_zones:
-    case Remedy::show_necking: {
-        FieldDisplay display = document.display;
-        display.field = *shown_by(doubt.remedy);
-        display.range.reset();
-        display.map.reset();
-        display.difference = false;
-        std::vector<Action> actions{SetDisplay{display}};
-        if (doubt.remedy == Remedy::show_necking && document.session.blank)
-            actions.push_back(FlyTo{most_strained(document.session.blank->face)});
-        return actions;
     }
     case Remedy::finer_grid: {
         GridOptions grid = options.grid;

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <vector>
 
 #include "app/viewer/model/actions/actions.h"
@@ -10,8 +9,5 @@ namespace spia::viewer {
 /// What pressing a doubt's button does, made of the document as it is now; nothing where it has
 /// none.
 std::vector<Action> actions_of(const Doubt& doubt, const Document& document);
-
-/// The field that the button shows, if that is all it does.
-std::optional<Field> shown_by(Remedy remedy);
 
 } // namespace spia::viewer

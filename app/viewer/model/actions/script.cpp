@@ -191,7 +191,7 @@ constexpr std::tuple forms{
     form<LookFrom>("look_from", member("view", &LookFrom::view), required("from", &LookFrom::from)),
     form<LookFromSide>("look_from_side", member("view", &LookFromSide::view),
                        required("side", &LookFromSide::side, Between{-1, 1})),
-    form<FlyTo>("fly_to", required("face", &FlyTo::face, any_index)),
+    form<FlyTo>("fly_to", required("face", &FlyTo::face, any_index), member("field", &FlyTo::field)),
     form<HideSpot>("hide_spot"),
     form<FlyToVertex>("fly_to_vertex", required("vertex", &FlyToVertex::vertex, any_index)),
     form<ShowFault>("show_fault", required("finding", &ShowFault::finding, any_index),

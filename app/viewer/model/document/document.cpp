@@ -52,6 +52,14 @@ ProcessConditions process_of(const Document& document, const std::filesystem::pa
     return process;
 }
 
+FieldDisplay with_field(FieldDisplay display, Field field, std::optional<ColourMap> map)
+{
+    display.field = field;
+    display.range.reset();
+    display.map = map;
+    return display;
+}
+
 bool is_smoothed(const FieldDisplay& display)
 {
     return !display.per_face && display.field != Field::none && display.field != Field::zone &&

@@ -82,7 +82,11 @@ struct FieldDisplay {
     bool extremes = true;    ///< mark least and greatest
     bool directions = false; ///< glyphs of the principal strains
     bool difference = false; ///< now minus reference; only where there is one, see comparison.h
+
+    friend bool operator==(const FieldDisplay&, const FieldDisplay&) = default;
 };
+/// Of another field: the range was that of the former.
+FieldDisplay with_field(FieldDisplay display, Field field, std::optional<ColourMap> map);
 /// Whether the colours of a field are means at the vertices, which peaks of single faces exceed.
 bool is_smoothed(const FieldDisplay& display);
 

@@ -333,8 +333,11 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
         throw InputError(fmt::format("{}: its material cannot be read: {}", file.string(), error.what()));
     }
     session.options.flatten.thickness = stored.thickness;
-    document.material_from = stored.material_from;
-    document.thickness_from = stored.thickness_from;
+    const auto source = [](SheetSource from) { // the part before is another one by now
+        return from == SheetSource::before ? SheetSource::assumed : from;
+    };
+    document.material_from = source(stored.material_from);
+    document.thickness_from = source(stored.thickness_from);
     session.options.flatten.skins = stored.skins;
     session.options.flatten.direction = stored.direction;
     session.options.k_factor = stored_k(stored, file, folder);

@@ -104,6 +104,7 @@ struct ShownFault {
 struct ShownSpot {
     int face = 0; ///< of the part
     WayBack back = {};
+    FieldDisplay before = {}, since = {};    ///< as in WayBack
     std::shared_ptr<const PartFile> of = {}; ///< the part whose face it is
 };
 

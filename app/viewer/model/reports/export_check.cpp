@@ -53,7 +53,7 @@ std::string text(const FitVerdict& verdict, LengthUnit lengths)
         area_share(verdict.beyond), length(verdict.tolerance));
 }
 
-ExportVerdict export_verdict(const ViewerState& state, const FitVerdict& fit)
+ExportVerdict export_verdict(const ViewerState& state, const FitVerdict& fit, bool writes_surface)
 {
     ExportVerdict verdict;
     verdict.doubts = state.doubts ? state.doubts->size() : 0;
@@ -62,13 +62,15 @@ ExportVerdict export_verdict(const ViewerState& state, const FitVerdict& fit)
                           : fit.fit == Fit::within  ? "The surface is within tolerance"
                           : fit.fit == Fit::far_off ? "The surface is far from the part"
                                                     : "The surface is out of tolerance";
-    verdict.kind = fit.fit == Fit::far_off                         ? ExportVerdict::Kind::bad
+    verdict.kind = fit.fit == Fit::far_off && writes_surface       ? ExportVerdict::Kind::bad
                    : fit.fit == Fit::within && verdict.doubts == 0 ? ExportVerdict::Kind::good
                                                                    : ExportVerdict::Kind::warning;
     const Readiness ready = readiness(state);
     verdict.headline = verdict.doubts == 0   ? surface
                        : verdict.doubts == 1 ? fmt::format("{}; 1 thing to look at", surface)
                                              : fmt::format("{}; {} things to look at", surface, verdict.doubts);
+    if (fit.fit != Fit::none && !writes_surface)
+        verdict.text += " None of the files chosen holds it.";
     // the steps of the unfolding
     if (verdict.doubts == 0 && !ready.fine && out_of_date(state.document).empty()) {
         verdict.kind = std::max(verdict.kind, ExportVerdict::Kind::warning);

@@ -36,12 +36,12 @@ std::string text(const FitVerdict& verdict, LengthUnit lengths = LengthUnit::mm)
 struct ViewerState;
 
 /// What Export says first: how the surface fits, and whether the lights hold anything against the
-/// result.
+/// result. A surface that is far off is bad only where a file would hold it.
 struct ExportVerdict {
     enum class Kind { good, warning, bad } kind = Kind::good;
     std::string headline, text;
     size_t doubts = 0; ///< that are listed below it
 };
-ExportVerdict export_verdict(const ViewerState& state, const FitVerdict& fit);
+ExportVerdict export_verdict(const ViewerState& state, const FitVerdict& fit, bool writes_surface);
 
 } // namespace spia::viewer

@@ -75,9 +75,12 @@ Doubt with_click(ChainStep step, const std::string& text, const Document& docume
     } else if (about("only bent, but joined")) {
         doubt.button = "Cut the corners";
         doubt.remedy = Remedy::cut_corners;
-    } else if (about("strained beyond")) {
-        doubt.button = "Show where";
-        doubt.remedy = Remedy::show_necking;
+    } else if (about("strained beyond") && session.blank) {
+        Eigen::Index most = 0;
+        session.blank->face.strain_equivalent.maxCoeff(&most);
+        const TriMesh& mesh = session.part->mesh;
+        doubt.place = mesh.position(Eigen::all, mesh.triangle.col(most)).rowwise().mean();
+        doubt.field = Field::necking;
     } else if ((about("crosses itself") || about("winds around")) && document.steps.empty()) {
         doubt.button = "Propose steps";
         doubt.remedy = Remedy::propose_steps;
@@ -142,8 +145,9 @@ void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
     if (text.empty())
         return;
     Doubt doubt{ChainStep::unfold, text};
-    doubt.button = "Show the zones";
-    doubt.remedy = Remedy::show_zones;
+    doubt.field = Field::zone;
+    if (!limits.zones.spots.empty())
+        doubt.place = limits.zones.spots.front().position;
     doubts.push_back(std::move(doubt));
 }
 

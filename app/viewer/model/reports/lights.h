@@ -22,8 +22,6 @@ enum class Remedy {
     read_in_other_unit,
     cut_corners,   ///< that keep a bent part from unrolling
     confirm_sheet, ///< what is assumed is right
-    show_zones,
-    show_necking,
     propose_steps,
     harmonic_grid,
     finer_grid,
@@ -42,6 +40,7 @@ struct Doubt {
     std::string button = {}; ///< what the remedy is called; empty: there is none
     Remedy remedy = Remedy::none;
     std::optional<Eigen::Vector3d> place = {}; ///< mm, where it is on the part; not given: no one place
+    std::optional<Field> field = {};           ///< that shows it there; not given: any
 };
 
 /// What the doubts are found in: as long as all of it stays, they do.

@@ -96,6 +96,13 @@ bool format_box(std::vector<std::string>& formats, const char* format, const cha
     return on;
 }
 
+bool writes_surface(const std::vector<std::string>& formats)
+{
+    return std::ranges::any_of(formats, [](const std::string& format) {
+        return format == "iges" || format == "step" || std::ranges::find(iga_formats(), format) != iga_formats().end();
+    });
+}
+
 /// Boxes in a row, a new row where the next one would not fit.
 template <size_t n> void boxes(const Frame& frame, const std::array<std::pair<const char*, bool*>, n>& each)
 {
@@ -356,7 +363,8 @@ void export_dialog(Frame& frame)
     old_results_banner(frame);
     const float s = frame.ui.scale;
     const FitVerdict& fit = choices.verdict.of({session.surface}, [&] { return fit_verdict(session); });
-    const ExportVerdict verdict = export_verdict(frame.state, fit);
+    const bool surface = writes_surface(choices.formats);
+    const ExportVerdict verdict = export_verdict(frame.state, fit, surface);
     verdict_banner(frame, verdict);
     if (verdict.doubts > 0 && list_of_doubts(frame))
         ImGui::CloseCurrentPopup(); // to see the views
@@ -407,13 +415,7 @@ void export_dialog(Frame& frame)
     const auto& planned = choices.planned.of(
         {choices.folder, choices.formats, choices.options, session.blank, session.lifted, session.surface},
         [&] { return planned_files(session, choices); });
-    const auto wants = [&](const char* format) {
-        return std::find(choices.formats.begin(), choices.formats.end(), format) != choices.formats.end();
-    };
-    const bool doubtful =
-        fit.fit == Fit::far_off && (wants("iges") || wants("step") ||
-                                    std::any_of(iga_formats().begin(), iga_formats().end(),
-                                                [&](const std::string& format) { return wants(format.c_str()); }));
+    const bool doubtful = fit.fit == Fit::far_off && surface;
     choices.asked &= doubtful;
     const bool busy = frame.model.busy();
     if (busy)

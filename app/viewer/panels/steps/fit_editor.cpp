@@ -21,7 +21,9 @@ static void cost_of_fit(Frame& frame, const FitChoice& fit)
 
 void fit_editor(Frame& frame, FitChoice fit)
 {
-    const float width = 150 * frame.ui.scale;
+    const float label = ImGui::CalcTextSize(option::max_control_points.label.data()).x, // the longest
+        width = std::min(150 * frame.ui.scale,
+                         ImGui::GetContentRegionAvail().x - label - ImGui::GetStyle().ItemInnerSpacing.x);
     const bool patches = frame.state.document.session.options.patches.has_value();
     bool changed = false;
     bool limited = fit.tolerance.has_value();

@@ -188,13 +188,9 @@ void limits_section(Frame& frame)
     for (const std::string& note : limits.notes)
         muted(frame, as_sentence(engine_words(frame, note)));
     zone_rows(frame, limits);
-    if (frame.state.document.display.field != Field::zone && small_button(frame, "Show the zones")) {
-        FieldDisplay display = frame.state.document.display;
-        display.field = Field::zone;
-        display.range.reset();
-        display.map = frame.state.preferences.map;
-        frame.actions.push(SetDisplay{display});
-    }
+    const FieldDisplay& display = frame.state.document.display;
+    if (display.field != Field::zone && small_button(frame, "Colour the zones"))
+        frame.actions.push(SetDisplay{with_field(display, Field::zone, frame.state.preferences.map)});
     spots(frame, limits);
 }
 
