@@ -34,6 +34,7 @@ void ViewGlide::begin(bool may, double now)
     if (!left || !may || *left == cameras())
         return;
     way_ = Way{*left, cameras(), *left, now};
+    model_.views_glide(true);
     set(*left);
 }
 
@@ -42,7 +43,7 @@ void ViewGlide::follow(bool may, double now)
     if (!way_)
         return;
     if (cameras() != way_->shown) {
-        way_.reset();
+        stop();
         return;
     }
     constexpr double seconds = 0.25;
@@ -67,8 +68,16 @@ void ViewGlide::set(const Cameras& cameras)
 /// The views are where they glide to.
 void ViewGlide::end()
 {
-    if (const auto way = std::exchange(way_, std::nullopt); way && cameras() == way->shown)
+    const auto way = way_;
+    stop();
+    if (way && cameras() == way->shown)
         set(way->to);
+}
+
+void ViewGlide::stop()
+{
+    way_.reset();
+    model_.views_glide(false);
 }
 
 } // namespace spia::viewer

@@ -31,6 +31,7 @@ private:
     };
     const Cameras& cameras() const { return model_.state().view.camera; }
     void set(const Cameras& cameras);
+    void stop();
     void end();
 
     ViewerModel& model_;

@@ -232,8 +232,8 @@ void require_corners(const GridContext& context, int columns, int rows, std::spa
 {
     if (const auto found = straight_corner(*context.filled, context.boundary, columns, rows, 1 + slides.back()))
         throw InputError(fmt::format("no cell fits into {}: the outline of the blank does not turn outwards there "
-                                     "(inner angle {:.0f} degrees); choose a corner where it is convex, or let the "
-                                     "corners be proposed",
+                                     "(inner angle {:.0f} degrees); choose a convex place, or let the corners be "
+                                     "proposed",
                                      corner_words(context, found->corner, file_number), found->angle_deg));
 }
 

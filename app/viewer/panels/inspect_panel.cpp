@@ -62,7 +62,7 @@ void crack_line(Frame& frame)
             : "Highest engineering major strain, in percent of the forming limit curve at the same minor strain. The "
               "zones are in Forming limits below.");
     if (verdict.face >= 0 && verdict.kind != Kind::safe && small_button(frame, "Show"))
-        frame.actions.push(FlyTo{verdict.face});
+        frame.actions.push(FlyTo{verdict.face, Field::zone});
     ImGui::Dummy({0, 2 * frame.ui.scale});
 }
 

@@ -73,6 +73,9 @@ TEST(GridAdvice, NamesTheCornerOnAStraightSideAndTheTurnItBelongsTo)
     EXPECT_TRUE(has(text, fmt::format("Corner 3 (vertex {})", 3 * straight))) << text;
     EXPECT_TRUE(has(text, "180 degrees")) << text;
     EXPECT_TRUE(has(text, fmt::format("at vertex {}", 3 * free))) << text;
+    const std::string after = grid_advice(session, fmt::format("no cell fits into corner 3 (vertex {})", 3 * straight));
+    EXPECT_TRUE(after.starts_with("Drag it to a sharp corner")) << after;
+    EXPECT_TRUE(has(after, fmt::format("at vertex {}", 3 * free))) << after;
 }
 
 TEST(GridAdvice, OffersAnotherMethodWhereTheCornersAreRight)

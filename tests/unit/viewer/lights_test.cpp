@@ -161,7 +161,10 @@ TEST_F(Lights, CracksAndForbiddenThinningAreAmberAndShowTheirZones)
     model.apply(HideSpot{});
     EXPECT_EQ(document.display, before) << "Esc goes back in all";
     model.apply(FlyTo{worst.face, doubt.field});
-    model.apply(FlyTo{0});
+    EXPECT_TRUE(document.display.per_face) << "as zones are";
+    model.apply(FlyTo{0, Field::thickness});
+    EXPECT_EQ(document.display.field, Field::thickness);
+    EXPECT_EQ(document.display.per_face, before.per_face) << "zones alone are";
     model.apply(HideSpot{});
     EXPECT_EQ(document.display, before) << "past both spots";
     model.apply(FlyTo{worst.face, doubt.field});

@@ -188,6 +188,20 @@ TEST_F(Picking, DrawsASectionAndGoesToAFaceInWaysThatCanBeTakenBack)
     EXPECT_FALSE(document.section);
 }
 
+TEST_F(Picking, AViewOnItsWayIsNotFittedAgain)
+{
+    open();
+    model.resized(View::part, {400, 300});
+    model.apply(FitView{});
+    const Camera begin = state.view.camera[size_t(View::part)];
+    model.views_glide(true);               // and is at its first moment where it was fitted
+    model.resized(View::part, {300, 300}); // as a wider legend leaves it
+    EXPECT_EQ(state.view.camera[size_t(View::part)], begin);
+    model.views_glide(false);
+    model.resized(View::part, {250, 300});
+    EXPECT_NE(state.view.camera[size_t(View::part)], begin) << "it follows again where it is back";
+}
+
 TEST_F(Picking, ViewsThatShowNothingHaveNothingToPick)
 {
     open();

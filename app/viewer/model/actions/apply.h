@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 
 #include "app/viewer/model/jobs/viewer_model.h"
 #include "engine/core/error.h"
@@ -180,7 +181,9 @@ struct ViewerModel::Apply {
     void operator()(const FlyToVertex& action);
     /// Every view shows the middle of some vertices of the part.
     /// @param at_least  mm, what the views show
-    void look_at(const std::vector<int>& vertices, double at_least = 0);
+    /// @param usual  mm, of the height of the views, if a share of the part is not less
+    void look_at(const std::vector<int>& vertices, double at_least = 0,
+                 double usual = std::numeric_limits<double>::infinity());
     void operator()(const ShowFault& action);
     void operator()(const HideFault&);
     void operator()(const ShowRefused&);

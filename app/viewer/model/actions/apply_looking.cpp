@@ -29,6 +29,17 @@ double bend_around(const Session& session, int face)
     return room * box.diagonal().norm();
 }
 
+/// mm, so that a face is seen among its neighbours
+double some_faces(const TriMesh& mesh, int face)
+{
+    constexpr double faces = 12; // across the view
+    const Eigen::Matrix3d corner = mesh.position(Eigen::all, mesh.triangle.col(face));
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+        longest = std::max(longest, (corner.col((k + 1) % 3) - corner.col(k)).norm());
+    return faces * longest;
+}
+
 } // namespace
 
 void ViewerModel::Apply::operator()(const SetDisplay& action)
@@ -79,11 +90,11 @@ void ViewerModel::Apply::operator()(const FlyTo& action)
     const FieldDisplay other =
         state.spot && state.spot->since == document.display ? state.spot->before : document.display;
     if (action.field && *action.field != document.display.field) {
-        SetDisplay display{with_field(document.display, *action.field, state.preferences.map)};
+        SetDisplay display{with_field(other, *action.field, state.preferences.map)};
         display.display.difference = false; // a limit is held against values
         (*this)(display);
     }
-    look_at({t[0], t[1], t[2]}, bend_around(session, action.face));
+    look_at({t[0], t[1], t[2]}, bend_around(session, action.face), some_faces(mesh, action.face));
     state.spot = ShownSpot{action.face, {before, state.view.camera}, other, document.display, session.part};
 }
 
@@ -124,7 +135,7 @@ void ViewerModel::Apply::operator()(const FlyToVertex& action)
     look_at({action.vertex});
 }
 
-void ViewerModel::Apply::look_at(const std::vector<int>& vertices, double at_least)
+void ViewerModel::Apply::look_at(const std::vector<int>& vertices, double at_least, double usual)
 {
     const TriMesh& mesh = part().mesh;
     const auto middle = [&](const auto& position) {
@@ -133,8 +144,7 @@ void ViewerModel::Apply::look_at(const std::vector<int>& vertices, double at_lea
             sum.head(position.rows()) += position.col(v) / double(vertices.size());
         return glm::dvec3(sum[0], sum[1], sum[2]);
     };
-    const double size =
-        std::max(at_least, 0.15 * (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm());
+    const double size = std::max(at_least, std::min(usual, 0.15 * bounding_diagonal(mesh)));
     for (const View view : all_views) {
         if (view == View::blank && !session.blank)
             continue;

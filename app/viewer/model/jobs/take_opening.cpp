@@ -156,7 +156,7 @@ void ViewerModel::report_failed(const ChainResult& result)
         say(Severity::error,
             fmt::format("{} {}", sentence(result.message),
                         reading                         ? "Choose another file."
-                        : *result.failed == Stage::grid ? grid_advice(result.session)
+                        : *result.failed == Stage::grid ? grid_advice(result.session, result.message)
                                                         : advice(*result.failed, result.session.options)),
             about_change(state_));
         return;

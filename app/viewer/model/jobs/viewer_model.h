@@ -70,6 +70,8 @@ public:
     {
         fitter_.resized(state_, view, size, scale, covered);
     }
+    /// While the views are on their way from place to place, each moment of it is no fit.
+    void views_glide(bool glide) { fitter_.glides = glide; }
     /// Whether a file that is read waits for TakeOpened or DropOpened where work is not saved; else
     /// it takes the place at once.
     void ask_before_replacing(bool ask) { asks_ = ask; }

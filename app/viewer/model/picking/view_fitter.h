@@ -29,9 +29,10 @@ public:
     /// @param covered  beside this the picture has its place
     void resized(ViewerState& state, View view, glm::dvec2 size, double scale, const Covered& covered = {});
     /// Whether the camera is still the one that fit() made.
+    bool glides = false; ///< the views are on their way from place to place
     bool is_fitted(const ViewerState& state, View view) const
     {
-        return fitted_[size_t(view)] == state.view.camera[size_t(view)];
+        return !glides && fitted_[size_t(view)] == state.view.camera[size_t(view)];
     }
 
 private:

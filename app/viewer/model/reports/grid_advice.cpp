@@ -4,11 +4,13 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
+#include <string_view>
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 #include "engine/part/vertex_numbers.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 namespace {
@@ -87,7 +89,7 @@ double outline_angle_deg(const Eigen::Matrix2Xd& plane, const std::vector<int>& 
     return (angle < 0 ? angle + 2 * std::numbers::pi : angle) * 180 / std::numbers::pi;
 }
 
-std::string grid_advice(const Session& session)
+std::string grid_advice(const Session& session, std::string_view message)
 {
     const std::string other_way = session.options.grid.method == GridMethod::coons
                                       ? "choose the automatic or the harmonic method in the step Corners and grid"
@@ -114,14 +116,17 @@ std::string grid_advice(const Session& session)
         return all;
     const std::vector<int>& in_file = session.part->source_vertex;
     const int number = in_file.empty() ? widest->vertex : in_file[size_t(widest->vertex)];
+    const std::string corner = fmt::format("corner {} (vertex {})", widest->number, number);
     const std::string why =
-        fmt::format("Corner {} (vertex {}) lies where the outline {} ({:.0f} degrees): ", widest->number, number,
-                    widest->angle_deg > 200 ? "turns inwards" : "runs straight on", widest->angle_deg);
+        message.find(corner) != std::string_view::npos
+            ? ""
+            : fmt::format("{} lies where the outline {} ({:.0f} degrees); ", corner,
+                          widest->angle_deg > 200 ? "turns inwards" : "runs straight on", widest->angle_deg);
     if (!session.options.corners)
-        return why + "drag it to a sharp corner of the blank, or " + other_way + ".";
+        return sentence(why + "drag it to a sharp corner of the blank, or " + other_way);
     const int turn = free_turn(session.blank->blank.position, proposed, corners);
-    return why + fmt::format("drag it to a sharp corner, e.g. at vertex {}, or press \"Propose corners\".",
-                             in_file.empty() ? turn : in_file[size_t(turn)]);
+    return sentence(why + fmt::format("drag it to a sharp corner, e.g. at vertex {}, or press \"Propose corners\"",
+                                      in_file.empty() ? turn : in_file[size_t(turn)]));
 }
 
 } // namespace spia::viewer

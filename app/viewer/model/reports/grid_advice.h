@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "engine/pipeline/session.h"
 
@@ -14,6 +15,8 @@ double outline_angle_deg(const Eigen::Matrix2Xd& plane, const std::vector<int>& 
 /// What to do next about a grid that could not be made, in a sentence or two: which corner to move
 /// and where to, or which method to choose.
 /// @param session  with a blank, and the options of the grid
-std::string grid_advice(const Session& session);
+/// @param message  that comes before it: where that names the corner, what is wrong with it is not
+/// said again
+std::string grid_advice(const Session& session, std::string_view message = {});
 
 } // namespace spia::viewer
