@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Each source includes what it names of the project, itself or by way of what it includes.
 
-Sources that are compiled together, a folder at once, hide an include that one of them lacks: the presets that compile
-each on its own (fuzz, tidy) are then broken. Looked for is what a header declares at namespace scope: constants,
-functions, types, enumerations. A name that a source also uses in another sense (a member, a local variable) is left alone.
+Sources that are compiled together, a folder at once, hide an include that one of them lacks: the
+presets that compile each on its own (fuzz, tidy) are then broken. Looked for is what a header
+declares at namespace scope: constants, functions, types, enumerations. A name that a source also
+uses in another sense (a member, a local variable) is left alone.
 
 Usage: missing_includes.py [ROOT]
 """

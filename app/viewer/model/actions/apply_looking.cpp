@@ -103,8 +103,8 @@ void ViewerModel::Apply::operator()(const HideSpot&)
     if (!state.spot)
         return;
     go_back(state.spot->back);
-    if (document.display == state.spot->since && !(document.display == state.spot->before))
-        (*this)(SetDisplay{FieldDisplay(state.spot->before)});
+    if (document.display == state.spot->since && document.display != state.spot->before)
+        (*this)(SetDisplay{state.spot->before});
     state.spot.reset();
 }
 

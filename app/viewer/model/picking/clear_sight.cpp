@@ -78,8 +78,8 @@ glm::dquat clear_sight(const TriMesh& mesh, const Eigen::Vector3d& place, const 
     const Eigen::Vector3d now(z.x, z.y, z.z);
     const Eigen::Vector3d normal = normal_near(mesh, place); // not a number, which is less than
                                                              // nothing: no area
-    constexpr double along = 0.3, across = 0.4;              // sines of the angle between sight and sheet: below
-                                                             // 17 degrees a place is hardly seen
+    // Sines of the angle between sight and sheet: below 17 degrees a place is hardly seen.
+    constexpr double along = 0.3, across = 0.4;
     if (!(std::abs(now.dot(normal)) < along) && !hidden(mesh, place, now, beside))
         return turn;
     std::vector<Eigen::Vector3d> ways = directions_around();
