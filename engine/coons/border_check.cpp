@@ -71,14 +71,13 @@ int crossings(const std::vector<Eigen::Vector2d>& polygon)
 
 constexpr double rounding_deg = 1e-6;
 
-/// From a to b, counter-clockwise.
+} // namespace
+
 double inner_angle_deg(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
     const double angle = std::atan2(cross(a, b), a.dot(b)) * 180 / std::numbers::pi;
     return angle > 0 ? angle : angle + 360;
 }
-
-} // namespace
 
 double corner_angle_deg(const QuadGrid& q, int k)
 {

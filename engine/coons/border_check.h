@@ -7,6 +7,9 @@
 
 namespace spia {
 
+/// From direction a to direction b, counter-clockwise, in degrees, more than 0 up to 360.
+double inner_angle_deg(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
 /// The inner angle of the outline at corner k, in degrees, between the first border nodes to both
 /// sides: 0 to 360.
 double corner_angle_deg(const QuadGrid& grid, int k);

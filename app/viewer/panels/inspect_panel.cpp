@@ -190,7 +190,9 @@ void worst_section(Frame& frame)
                                     part.position.col(part.triangle(2, f))) /
                                    3;
         const bool here = frame.state.spot && frame.state.spot->face == f;
-        if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value_here(frame, now.face.value[f]), f).c_str(), here))
+        const std::string value = now.face.order.size() ? fmt::format("strain {}", figure_text(now.face.order[f], 2))
+                                                        : value_here(frame, now.face.value[f]);
+        if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value, f).c_str(), here))
             frame.actions.push(FlyTo{f});
         tooltip("Click to zoom to it in all views; Escape goes back");
         const Eigen::Vector3d there = at / millimetres(frame.lengths());

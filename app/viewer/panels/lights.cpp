@@ -5,7 +5,6 @@
 
 #include "app/viewer/model/actions/remedies.h"
 #include "app/viewer/panels/widgets.h"
-#include "engine/mesh/closest_point.h"
 
 namespace spia::viewer {
 namespace {
@@ -25,14 +24,14 @@ const char* name_of(ChainStep step)
 /// @returns whether it was clicked
 bool show_place(Frame& frame, const Doubt& doubt)
 {
-    const auto& part = frame.state.document.session.part;
-    if (!doubt.place || !part || part->mesh.triangles() == 0)
+    if (!doubt.face && !doubt.place)
         return false;
     const bool pressed = small_button(frame, "Show");
     note_place(frame, fmt::format("show {}", name_of(doubt.step)));
     if (!pressed)
         return false;
-    frame.actions.push(FlyTo{ClosestPointSearch(part->mesh).nearest(*doubt.place).face, doubt.field});
+    if (const auto face = face_of(doubt, frame.state.document.session.part->mesh))
+        frame.actions.push(FlyTo{*face, doubt.field});
     return true;
 }
 
@@ -46,7 +45,7 @@ bool doubt_row(Frame& frame, const Doubt& doubt)
     const bool looks = show_place(frame, doubt);
     if (doubt.button.empty())
         return looks;
-    if (doubt.place)
+    if (doubt.face || doubt.place)
         beside_if_room(doubt.button.c_str());
     ImGui::BeginDisabled(frame.model.busy());
     const bool pressed = small_button(frame, doubt.button.c_str());

@@ -71,8 +71,8 @@ void draw_axes(const Frame& frame, const Axes& axes, ImDrawList* draw)
         label({low.x - 4 * s, low.y}, number(value), 1, 0.5f);
     }
     const float line = ImGui::GetTextLineHeight();
-    label({(axes.low.x + axes.high.x) / 2, axes.low.y + 2 * s + line}, "minor strain", 0.5f, 0);
-    label({axes.low.x - 4 * s, axes.high.y - line / 2 - 2 * s}, "major strain", 0, 1);
+    label({(axes.low.x + axes.high.x) / 2, axes.low.y + 2 * s + line}, "minor strain (true)", 0.5f, 0);
+    label({axes.low.x - 4 * s, axes.high.y - line / 2 - 2 * s}, "major strain (true)", 0, 1);
     ImGui::PopFont();
     draw->AddLine(axes.place(0, axes.major.least), axes.place(0, axes.major.greatest), ink(p.muted), 1.5f * s);
 }

@@ -34,11 +34,11 @@ std::string file_stem(const Session& session, const OutputOptions& options)
 /// Whether the session has anything for a file of this format.
 bool has_content(const std::string& format, const Session& session, const OutputOptions& options)
 {
-    if (format == "iges" || format == "step" || is_iga_format(format))
+    if (is_of_surface(format))
         return session.surface != nullptr;
     const GltfNodes& glb = options.glb;
     return format != "glb" || glb.part || glb.blank || (glb.quad_mesh && session.lifted) ||
-           ((glb.surface || glb.control_net) && session.surface);
+           (holds_surface(format, options) && session.surface);
 }
 
 /// @throws InputError if the format is unknown, the name is none, or nothing is chosen of the
@@ -109,6 +109,13 @@ const std::vector<std::string>& output_formats()
         return all;
     }();
     return formats;
+}
+
+bool is_of_surface(const std::string& format) { return format == "iges" || format == "step" || is_iga_format(format); }
+
+bool holds_surface(const std::string& format, const OutputOptions& options)
+{
+    return is_of_surface(format) || (format == "glb" && (options.glb.surface || options.glb.control_net));
 }
 
 bool shows_surface(const std::string& format) { return format != "dxf" && format != "csv" && !is_deck_format(format); }

@@ -20,6 +20,8 @@ const std::vector<std::string>& usual_formats(); ///< what is written unless som
 
 /// Whether files of a format are of the surface or show something of it.
 bool shows_surface(const std::string& format);
+/// Whether files of a format are the surface itself, as NURBS: there is none without a surface.
+bool is_of_surface(const std::string& format);
 
 /// What a CSV export consists of; each is a file of its own.
 struct CsvTables {
@@ -41,6 +43,9 @@ struct OutputOptions {
 
     friend bool operator==(const OutputOptions&, const OutputOptions&) = default;
 };
+
+/// Whether a file would hold the surface or its control net.
+bool holds_surface(const std::string& format, const OutputOptions& options);
 
 /// @throws InputError if a name that was asked for leads out of the folder or is none: it has a
 /// path separator, say

@@ -407,6 +407,25 @@ TEST(Outputs, OptionsSayWhatIsWrittenUnderWhichName)
     EXPECT_TRUE(write_outputs(session, folder / "none", {"iges", "glb"}, options).empty());
 }
 
+TEST(Outputs, AGlbFileHoldsTheSurfaceOnlyIfAskedTo)
+{
+    OutputOptions options;
+    const auto holds = [&](const char* format) { return holds_surface(format, options); };
+    options.glb = {};
+    options.glb.surface = options.glb.control_net = false;
+    EXPECT_FALSE(holds("glb"));
+    options.glb.control_net = true;
+    EXPECT_TRUE(holds("glb"));
+    options.glb.control_net = false;
+    options.glb.surface = true;
+    EXPECT_TRUE(holds("glb"));
+    EXPECT_FALSE(is_of_surface("glb")) << "it can be without";
+    for (const char* format : {"iges", "step", "g2"})
+        EXPECT_TRUE(holds(format) && is_of_surface(format)) << format;
+    for (const char* format : {"dxf", "csv", "vtu", "png"})
+        EXPECT_FALSE(holds(format) || is_of_surface(format)) << format;
+}
+
 TEST(Outputs, TheTableOfFieldsCallsVerticesAsTheFileDoes)
 {
     const ScratchFolder folder;

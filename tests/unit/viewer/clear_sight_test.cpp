@@ -64,6 +64,16 @@ TEST(ClearSight, DoesNotLookAlongTheSheet)
     EXPECT_GT(std::abs(way.x()), 0.4);
 }
 
+TEST(ClearSight, TurnsWhereASheetIsSeenAtLessThan17Degrees)
+{
+    const TriMesh box = open_box();
+    const auto tilted = [](double above_sheet_deg) {
+        return glm::angleAxis(glm::radians(90 - above_sheet_deg), glm::dvec3(0, 1, 0));
+    };
+    EXPECT_EQ(clear_sight(box, {10, 5, 50}, tilted(18)), tilted(18));
+    EXPECT_GT(towards(clear_sight(box, {10, 5, 50}, tilted(16))).z(), 0.4);
+}
+
 TEST(ClearSight, GivesUpWhereAPlaceIsHiddenFromEverySide)
 {
     TriMesh box = open_box();

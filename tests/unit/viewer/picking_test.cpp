@@ -1,11 +1,14 @@
 #include "app/viewer/model/jobs/viewer_model.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "app/viewer/model/actions/names.h"
 #include "app/viewer/model/picking/pickers.h"
 #include "app/viewer/views/views.h"
+#include "engine/mesh/topology.h"
 #include "tests/unit/viewer/model_fixture.h"
 
 namespace spia::viewer {
@@ -186,6 +189,20 @@ TEST_F(Picking, DrawsASectionAndGoesToAFaceInWaysThatCanBeTakenBack)
     model.apply(Undo{});
     model.apply(Undo{});
     EXPECT_FALSE(document.section);
+}
+
+TEST_F(Picking, AFaceThatIsFlownToIsSeenAmongTwelve)
+{
+    open("inner-panel.obj");
+    model.apply(FitView{});
+    const TriMesh& mesh = document.session.part->mesh;
+    const int face = mesh.triangles() / 2;
+    const Eigen::Matrix3d corner = mesh.position(Eigen::all, mesh.triangle.col(face));
+    const double longest = std::max({(corner.col(0) - corner.col(1)).norm(), (corner.col(1) - corner.col(2)).norm(),
+                                     (corner.col(2) - corner.col(0)).norm()});
+    ASSERT_LT(12 * longest, 0.15 * bounding_diagonal(mesh)) << "or the size of the part counts";
+    model.apply(FlyTo{face});
+    EXPECT_NEAR(state.view.camera[size_t(View::part)].height, 12 * longest, 1e-9);
 }
 
 TEST_F(Picking, AViewOnItsWayIsNotFittedAgain)

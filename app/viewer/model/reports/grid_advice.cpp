@@ -1,11 +1,10 @@
 #include "app/viewer/model/reports/grid_advice.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
-#include <numbers>
 #include <string_view>
 
+#include "engine/coons/border_check.h"
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
@@ -83,10 +82,8 @@ double outline_angle_deg(const Eigen::Matrix2Xd& plane, const std::vector<int>& 
     }
     const int forwards = twice_area > 0 ? 1 : -1;
     const Eigen::Vector2d here = plane.col(loop[at]);
-    const Eigen::Vector2d next = walked(plane, loop, at, forwards, share * length) - here,
-                          last = walked(plane, loop, at, -forwards, share * length) - here;
-    const double angle = std::atan2(next.x() * last.y() - next.y() * last.x(), next.dot(last));
-    return (angle < 0 ? angle + 2 * std::numbers::pi : angle) * 180 / std::numbers::pi;
+    return inner_angle_deg(walked(plane, loop, at, forwards, share * length) - here,
+                           walked(plane, loop, at, -forwards, share * length) - here);
 }
 
 std::string grid_advice(const Session& session, std::string_view message)

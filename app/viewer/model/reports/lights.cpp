@@ -11,6 +11,7 @@
 #include "app/viewer/model/reports/export_check.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/core/text.h"
+#include "engine/mesh/closest_point.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/smooth_joins.h"
@@ -78,8 +79,7 @@ Doubt with_click(ChainStep step, const std::string& text, const Document& docume
     } else if (about("strained beyond") && session.blank) {
         Eigen::Index most = 0;
         session.blank->face.strain_equivalent.maxCoeff(&most);
-        const TriMesh& mesh = session.part->mesh;
-        doubt.place = mesh.position(Eigen::all, mesh.triangle.col(most)).rowwise().mean();
+        doubt.face = int(most);
         doubt.field = Field::necking;
     } else if ((about("crosses itself") || about("winds around")) && document.steps.empty()) {
         doubt.button = "Propose steps";
@@ -147,7 +147,7 @@ void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
     Doubt doubt{ChainStep::unfold, text};
     doubt.field = Field::zone;
     if (!limits.zones.spots.empty())
-        doubt.place = limits.zones.spots.front().position;
+        doubt.face = limits.zones.spots.front().face;
     doubts.push_back(std::move(doubt));
 }
 
@@ -313,6 +313,13 @@ std::string poor_step(const Document& document)
 }
 
 } // namespace
+
+std::optional<int> face_of(const Doubt& doubt, const TriMesh& part)
+{
+    if (doubt.face || !doubt.place || part.triangles() == 0)
+        return doubt.face;
+    return ClosestPointSearch(part).nearest(*doubt.place).face;
+}
 
 DoubtsOf doubts_of(const Document& document, LengthUnit lengths)
 {

@@ -39,9 +39,13 @@ struct Doubt {
                              ///< button
     std::string button = {}; ///< what the remedy is called; empty: there is none
     Remedy remedy = Remedy::none;
-    std::optional<Eigen::Vector3d> place = {}; ///< mm, where it is on the part; not given: no one place
+    std::optional<int> face = {};              ///< of the part, where it is
+    std::optional<Eigen::Vector3d> place = {}; ///< mm, likewise where no face is known
     std::optional<Field> field = {};           ///< that shows it there; not given: any
 };
+
+/// The face of the part that a doubt is about, else the nearest to its place; nothing: no one place.
+std::optional<int> face_of(const Doubt& doubt, const TriMesh& part);
 
 /// What the doubts are found in: as long as all of it stays, they do.
 struct DoubtsOf {

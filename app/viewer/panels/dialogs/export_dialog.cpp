@@ -96,20 +96,6 @@ bool format_box(std::vector<std::string>& formats, const char* format, const cha
     return on;
 }
 
-/// As NURBS, for CAD or analysis.
-bool writes_nurbs(const std::vector<std::string>& formats)
-{
-    return std::ranges::any_of(formats, [](const std::string& format) {
-        return format == "iges" || format == "step" || std::ranges::find(iga_formats(), format) != iga_formats().end();
-    });
-}
-
-bool writes_surface(const std::vector<std::string>& formats, const GltfNodes& glb)
-{
-    return writes_nurbs(formats) ||
-           ((glb.surface || glb.control_net) && std::ranges::find(formats, "glb") != formats.end());
-}
-
 /// Boxes in a row, a new row where the next one would not fit.
 template <size_t n> void boxes(const Frame& frame, const std::array<std::pair<const char*, bool*>, n>& each)
 {
@@ -370,8 +356,9 @@ void export_dialog(Frame& frame)
     old_results_banner(frame);
     const float s = frame.ui.scale;
     const FitVerdict& fit = choices.verdict.of({session.surface}, [&] { return fit_verdict(session); });
-    const ExportVerdict verdict =
-        export_verdict(frame.state, fit, writes_surface(choices.formats, choices.options.glb));
+    const bool writes_surface = std::ranges::any_of(
+        choices.formats, [&](const std::string& format) { return holds_surface(format, choices.options); });
+    const ExportVerdict verdict = export_verdict(frame.state, fit, writes_surface);
     verdict_banner(frame, verdict);
     if (verdict.doubts > 0 && list_of_doubts(frame))
         ImGui::CloseCurrentPopup(); // to see the views
@@ -422,7 +409,7 @@ void export_dialog(Frame& frame)
     const auto& planned = choices.planned.of(
         {choices.folder, choices.formats, choices.options, session.blank, session.lifted, session.surface},
         [&] { return planned_files(session, choices); });
-    const bool doubtful = fit.fit == Fit::far_off && writes_nurbs(choices.formats);
+    const bool doubtful = fit.fit == Fit::far_off && std::ranges::any_of(choices.formats, is_of_surface);
     choices.asked &= doubtful;
     const bool busy = frame.model.busy();
     if (busy)

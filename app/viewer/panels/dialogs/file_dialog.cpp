@@ -228,11 +228,11 @@ std::optional<fs::path> FileDialog::take()
     if (words.saves && there && !std::exchange(confirm_, true))
         return std::nullopt;
     if (!words.saves && !there) {
-        problem_ = fmt::format("There is no file {}", path.string());
+        problem_ = fmt::format("There is no file {}", path.filename().string());
         return std::nullopt;
     }
     if (words.saves && !fs::is_directory(path.parent_path(), ignored)) {
-        problem_ = fmt::format("There is no folder {}", path.parent_path().string());
+        problem_ = fmt::format("There is no folder {}", path.parent_path().filename().string());
         return std::nullopt;
     }
     return path.lexically_normal();
@@ -368,7 +368,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         ImGui::TextColored(palette_of(frame.state.view.dark).warning, "This file exists already.");
     else if (entries_.empty())
         ImGui::TextDisabled(words.folders ? "No subfolders here; this folder can be chosen"
-                            : words.saves ? "No such files here yet"
+                            : words.saves ? "No files of this kind here yet"
                                           : "No files of this kind here");
     else {
         const auto files = std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.folder; });
