@@ -39,9 +39,9 @@ struct Doubt {
                              ///< button
     std::string button = {}; ///< what the remedy is called; empty: there is none
     Remedy remedy = Remedy::none;
-    std::optional<int> face = {};              ///< of the part, where it is
-    std::optional<Eigen::Vector3d> place = {}; ///< mm, likewise where no face is known
+    std::optional<Eigen::Vector3d> place = {}; ///< mm, where it is on the part, if no face is known
     std::optional<Field> field = {};           ///< that shows it there; not given: any
+    std::optional<int> face = {};              ///< of the part, where it is
 };
 
 /// The face of the part that a doubt is about, else the nearest to its place; nothing: no one place.
