@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/layout/patches_judge.h"
 #include "engine/layout/simplify/simplify_layout.h"
@@ -84,25 +85,31 @@ std::vector<Division> divisions(const TriMesh& part, const LayoutOptions& layout
     return result;
 }
 
-/// What a fit is worth: no fold, then the tolerance, then few control points, or to be near.
+/// What a fit is worth: no fold, then the tolerance, then its shape, then few control points, or to
+/// be near.
 struct Worth {
     bool suited = false, reached = false;
+    double least_scaled = 0; ///< scaled Jacobian
     double deviation = std::numeric_limits<double>::infinity();
     int control_points = std::numeric_limits<int>::max();
 
     bool all() const { return suited && reached; }
+    bool shaped() const { return least_scaled >= well_shaped_jacobian; }
     bool better_than(const Worth& other) const
     {
         if (all() && other.all())
-            return control_points < other.control_points;
+            return std::tuple(shaped(), -control_points) > std::tuple(other.shaped(), -other.control_points);
         return std::tuple(suited, reached, -deviation) > std::tuple(other.suited, other.reached, -other.deviation);
     }
 };
 
 Worth worth_of(const PatchesFit& fit, const Progress& progress)
 {
-    return {certify(fit.patches, progress).suited(), fit.reached, fit.deviation_max(),
-            shared_controls(fit.patches).count};
+    const Certificate certificate = certify(fit.patches, progress);
+    double least = 1;
+    for (const PatchCertificate& patch : certificate.patch)
+        least = std::min(least, patch.least_scaled);
+    return {certificate.suited(), fit.reached, least, fit.deviation_max(), shared_controls(fit.patches).count};
 }
 
 bool same(const Layout& a, const Layout& b)
@@ -115,11 +122,15 @@ bool same(const Layout& a, const Layout& b)
 }
 
 /// What a fit came to, in words.
-std::string describe(const Worth& worth)
+std::string describe(const Worth& worth, size_t patches)
 {
-    return !worth.suited    ? "not proved to have no fold"
-           : !worth.reached ? "beyond the tolerance"
-                            : fmt::format("within the tolerance with {} control points", worth.control_points);
+    return fmt::format(
+        "{}: {}", counted(patches, "patch", "patches"),
+        !worth.suited ? "not proved to have no fold"
+        : !worth.reached
+            ? fmt::format("{:.3g} mm from the part with {} control points", worth.deviation, worth.control_points)
+            : fmt::format("within the tolerance with {} control points, least scaled Jacobian {:.2g}",
+                          worth.control_points, worth.least_scaled));
 }
 
 /// The divisions that were tried so far, and the best fit of them.
@@ -132,10 +143,12 @@ public:
 
     /// Patches along edges are compared with those without, whose fit may cost no more. Where
     /// patches have no fold but stay beyond the tolerance, what lacks is control points, or an edge
-    /// is in the way whatever the patches: dividing every face does not help.
+    /// is in the way whatever the patches: dividing every face does not help. One patch on a round
+    /// blank has no angle at its corners, which are better put inside.
     bool worth_trying(const Division& division) const
     {
-        return compares(division) || !(worth_.all() || (worth_.suited && division.layout.split));
+        return compares(division) || betters_shape(division) ||
+               !(worth_.all() || (worth_.suited && division.layout.split));
     }
 
     /// @returns whether it is the best so far
@@ -153,14 +166,17 @@ public:
             if (compares(division))
                 fitting.max_control_points = std::min(options_.max_control_points, worth_.control_points);
             // More: the patches are too large for the tolerance, and knots in their strips dear.
-            constexpr int most_of_a_patch = 500;
-            if (division.simplified)
+            constexpr int most_of_a_patch = 500, dearest_shape = 2;
+            if (betters_shape(division))
+                fitting.max_control_points =
+                    std::min(options_.max_control_points, dearest_shape * worth_.control_points);
+            else if (division.simplified && !compares(division))
                 fitting.max_control_points =
                     std::min(fitting.max_control_points, most_of_a_patch * int(divided.patch.size()));
             PatchesFit fit = fit_patches(part_, blank_, divided, fitting, progress.part(0.4, 1));
             const Worth now = worth_of(fit, progress.part(1, 1));
             own.within = std::move(fit.attempts);
-            own.reason = describe(now);
+            own.reason = describe(now, divided.patch.size());
             if (best_ && !now.better_than(worth_))
                 return false;
             best_ = std::move(fit);
@@ -189,6 +205,11 @@ private:
     {
         return worth_.all() && best_->layout.edges > 0 && division.without_edges &&
                division.simplified == best_is_simplified_;
+    }
+
+    bool betters_shape(const Division& division) const
+    {
+        return worth_.all() && !worth_.shaped() && !best_is_simplified_ && division.simplified;
     }
 
     /// From layers, which have no flat corners; where there is no room for them from few patches.

@@ -136,7 +136,7 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
         for (const int v : {edge.front(), edge.back()})
             if (on_border[size_t(v)])
                 forced.push_back(v);
-    const bool whole = forced.empty() && edges.empty() && !options.split && loops.size() == 1;
+    const bool whole = forced.empty() && edges.empty() && !options.split && !options.layers && loops.size() == 1;
     if (whole) {
         const auto corner = propose_corners(blank, part);
         forced.assign(corner.begin(), corner.end());
@@ -151,7 +151,7 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
     add_cuts(graph, blank, options, breaks);
     add_edges(graph, blank, edges, vertex_spacing(part, blank, options));
     std::vector<Face> faces;
-    if ((loops.size() == 1 && edges.empty()) || !options.corners.empty())
+    if ((loops.size() == 1 && edges.empty() && !options.layers) || !options.corners.empty())
         faces = faces_of(graph);
     const bool ready = !faces.empty() && all_four_sided(faces);
     if (!ready) {

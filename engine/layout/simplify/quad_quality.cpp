@@ -62,7 +62,7 @@ void add_kinks(const QuadSide& side, bool backwards, Shares& shares)
 
 Shares shares_of(const QuadSide& side, const QuadSide& opposite, int cells)
 {
-    constexpr double next = 1.0 / 24; // to a corner: an arc of 120 degrees turns by 5 there
+    constexpr double next = 1.0 / 96; // to a corner, so that an arc hardly turns up to there
     Shares result;
     if (!side.arc && !opposite.arc) { // ruled along both: cells as long as these are seen at their
                                       // ends

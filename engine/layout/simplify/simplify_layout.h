@@ -6,13 +6,17 @@
 
 namespace spia {
 
+/// Scaled Jacobian that analysis asks of a patch at the least: the sine of 11.5 degrees between its
+/// parameter lines (shared aim of layouts and of the program's choice of a surface).
+inline constexpr double well_shaped_jacobian = 0.2;
+
 struct SimplifyOptions {
-    double corner_deg = 50;      ///< turn of the border from which on a vertex stays where it is
-    double corner_radius = 1e30; ///< mm: not where the border is rounded by more
-    double least_quality = 0.2;  ///< scaled Jacobian below which no patch may come by a change
-    bool refine = false;         ///< every face of the start is divided into four first
-    double effort = 1;           ///< how long to search, over the usual
-    std::uint64_t seed = 1;      ///< of the order in which changes are tried
+    double corner_deg = 50;                      ///< turn of the border from which on a vertex stays where it is
+    double corner_radius = 1e30;                 ///< mm: not where the border is rounded by more
+    double least_quality = well_shaped_jacobian; ///< below which no patch may come by a change
+    bool refine = false;                         ///< every face of the start is divided into four first
+    double effort = 1;                           ///< how long to search, over the usual
+    std::uint64_t seed = 1;                      ///< of the order in which changes are tried
 };
 
 /// Takes patches away from a layout: diagonals and whole strips of patches shrink and sides turn
