@@ -147,17 +147,17 @@ TEST_F(CoarsePicture, AViewThatWaitsWithAnotherFieldIsOldAndOneThatIsOnlyTurnedI
             drawn[view] = images.draw(view, view == 0, scene, seen, 2000, 2000, look);
         return drawn;
     };
-    const Scene by_vertex = hemisphere(false), by_face = hemisphere(true);
+    const Scene by_vertex = hemisphere(false), of_faces = hemisphere(true);
     for (const auto& drawn : frame(by_vertex, camera))
         EXPECT_FALSE(drawn.old) << "the first picture is there at once";
-    const auto after = frame(by_face, camera);
+    const auto after = frame(of_faces, camera);
     EXPECT_FALSE(after[0].old);
     EXPECT_TRUE(after[3].old) << "it still shows the other field";
     EXPECT_TRUE(images.any_late());
     for (int k = 0; k < 4; ++k)
-        frame(by_face, camera);
+        frame(of_faces, camera);
     EXPECT_FALSE(images.any_late());
-    const auto moved = frame(by_face, turned);
+    const auto moved = frame(of_faces, turned);
     EXPECT_TRUE(images.any_late());
     for (const auto& drawn : moved)
         EXPECT_FALSE(drawn.old) << "the same field, seen a frame ago";

@@ -92,7 +92,7 @@ void field_section(Frame& frame)
         ImGui::EndCombo();
     }
     tooltip(std::string(shown.help));
-    int per_face = display.per_face;
+    int per_face = by_face(display);
     ImGui::BeginDisabled(display.field == Field::zone); // nothing lies between two zones
     changed |= ImGui::RadioButton("Smooth", &per_face, 0);
     tooltip("Contours are averaged at the vertices. Labels, worst spots and the ends of the legend are face values.");
@@ -100,7 +100,8 @@ void field_section(Frame& frame)
     changed |= ImGui::RadioButton("Per face", &per_face, 1);
     tooltip("One colour per face: the values that are compared with limits");
     ImGui::EndDisabled();
-    display.per_face = per_face == 1;
+    if (per_face != int(by_face(display)))
+        display.per_face = per_face == 1;
     static constexpr const char* maps[] = {"automatic colours", "blue to yellow", "blue to orange", "grey"};
     int map = display.map ? int(*display.map) + 1 : 0;
     ImGui::SetNextItemWidth(-1);
@@ -287,7 +288,7 @@ void cut_through_vertices(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     const std::vector<int>& vertices = frame.state.document.vertices;
-    if (vertices.size() < 2 || !session.blank || (vertices.size() == 4 && !session.options.patches))
+    if (vertices.size() < 2 || !session.blank || (vertices.size() == 4 && !made_of_patches(session)))
         return;
     const std::string& why = frame.ui.no_cut.of({session.part, session.blank, vertices}, [&]() -> std::string {
         try {

@@ -20,7 +20,7 @@ const std::vector<SectionPiece>& section_of(Frame& frame)
     const Session& session = document.session;
     const Field field = document.display.field;
     return frame.ui.charts.section.of({session.part, blank_of_field(frame.state), session.limits, session.surface,
-                                       field, document.section, document.display.per_face},
+                                       field, document.section, by_face(document.display)},
                                       [&]() -> std::vector<SectionPiece> {
                                           const auto& line = document.section;
                                           const TriMesh* mesh = line ? section_mesh(frame, line->on_blank) : nullptr;
@@ -29,7 +29,7 @@ const std::vector<SectionPiece>& section_of(Frame& frame)
                                           const Session shown = session_of_field(frame.state);
                                           std::vector<SectionPiece> pieces =
                                               section(*mesh, values(shown, field, false), *line);
-                                          if (document.display.per_face) { // a step in each face
+                                          if (by_face(document.display)) { // a step in each face
                                               const FaceValues said = face_values(shown, field);
                                               for (SectionPiece& piece : pieces)
                                                   piece.from_value = piece.to_value = said.value[piece.face];
@@ -47,7 +47,7 @@ const std::vector<SectionPiece>& section_in(Frame& frame, View view)
         return drawn;
     return frame.ui.charts.section_elsewhere.of(
         {session.part, blank_of_field(frame.state), session.limits, session.surface, document.display.field,
-         document.section, document.display.per_face},
+         document.section, by_face(document.display)},
         [&]() -> std::vector<SectionPiece> {
             const TriMesh* from = section_mesh(frame, document.section->on_blank);
             const TriMesh* to = section_mesh(frame, !document.section->on_blank);

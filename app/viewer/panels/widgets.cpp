@@ -304,6 +304,23 @@ std::string broken(const std::string& text, float room)
     });
 }
 
+std::string without_middle(const std::string& text, float room)
+{
+    const auto begins_character = [&](size_t i) { return (text[i] & 0xC0) != 0x80; }; // of UTF-8
+    std::string shown = text;
+    size_t first = text.size() / 2, second = first; // what is between them is left out
+    while (ImGui::CalcTextSize(shown.c_str()).x > room && first > 0 && second < text.size()) {
+        do
+            --first;
+        while (first > 0 && !begins_character(first));
+        do
+            ++second;
+        while (second < text.size() && !begins_character(second));
+        shown = text.substr(0, first) + "..." + text.substr(second);
+    }
+    return shown;
+}
+
 void wrapped(const std::string& text)
 {
     ImGui::PushTextWrapPos(0); // of words that are wider by themselves, such as paths

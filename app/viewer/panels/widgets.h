@@ -27,6 +27,8 @@ void begin_scrolled(const Frame& frame, const char* name, float height);
 
 /// A text in lines of this width (pixels), broken at spaces only; see model/reports/wrapped_text.h.
 std::string broken(const std::string& text, float room);
+/// A text on one line of this width (pixels): what there is no room for goes from its middle.
+std::string without_middle(const std::string& text, float room);
 /// A text as wide as there is room; the one way in which texts wrap.
 void wrapped(const std::string& text);
 

@@ -20,7 +20,7 @@ std::string what_is_missing(const Session& session)
         return "The quad mesh appears here once a part is open and unfolded.";
     if (!session.blank)
         return "Unfold the part first; then the blank can be filled with a grid.";
-    if (session.options.patches)
+    if (made_of_patches(session))
         return "Make the patches to see their quads on the part.";
     if (!session.grid)
         return "Make the grid to see the quad mesh on the part.";

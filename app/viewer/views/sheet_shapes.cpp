@@ -30,9 +30,9 @@ const FieldValues* field_values(const ViewerState& state, SceneCache& cache)
     if (display.field == Field::none || !session.part || !available(session, display.field))
         return nullptr;
     return &cache.values.of(
-        {session.part, blank_of_field(state), session.limits, session.surface, display.field, display.per_face}, [&] {
+        {session.part, blank_of_field(state), session.limits, session.surface, display.field, by_face(display)}, [&] {
             const Session shown = session_of_field(state);
-            return FieldValues{values(shown, display.field, display.per_face), face_values(shown, display.field)};
+            return FieldValues{values(shown, display.field, by_face(display)), face_values(shown, display.field)};
         });
 }
 
@@ -79,9 +79,9 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
         scene.legend = legend_of(state, *values, part_shape(state, shared).box.diagonal().norm());
         sheet.scale = scene.legend->scale;
         sheet.field = cache.field.of({mesh, session.part, blank_of_field(state), session.limits, session.surface,
-                                      display.field, display.per_face},
-                                     [&] { return scene_field(*mesh, values->drawn, display.per_face); });
-        if (display.isolines && !display.per_face)
+                                      display.field, by_face(display)},
+                                     [&] { return scene_field(*mesh, values->drawn, by_face(display)); });
+        if (display.isolines && !by_face(display))
             scene.isolines =
                 cache.isolines.of({sheet.field, sheet.scale.least, sheet.scale.greatest, sheet.scale.ticks}, [&] {
                     return std::make_shared<const std::vector<Isoline>>(

@@ -165,10 +165,10 @@ const FieldValues* values_of(const ViewerState& state, SceneCache& cache)
         return nullptr;
     const auto number = size_t(std::ceil(position)) - 1;
     const auto& run = state.document.unfolding;
-    return &cache.steps.values.of({run, number, display.field, display.per_face}, [&] {
+    return &cache.steps.values.of({run, number, display.field, by_face(display)}, [&] {
         const TriMesh& part = run->part->mesh;
         const SheetFields& face = run->run.states[number].face;
-        return FieldValues{values(part, face, display.field, display.per_face), face_values(part, face, display.field)};
+        return FieldValues{values(part, face, display.field, by_face(display)), face_values(part, face, display.field)};
     });
 }
 
@@ -179,8 +179,8 @@ void colour_by_field(Scene& scene, SceneLayer& sheet, const ViewerState& state, 
     const auto number = size_t(std::ceil(step_position(state))) - 1;
     scene.legend = legend_of(state, values, part_shape(state, cache).box.diagonal().norm());
     sheet.scale = scene.legend->scale;
-    sheet.field = cache.steps.field.of({sheet.mesh, state.document.unfolding, number, display.field, display.per_face},
-                                       [&] { return scene_field(*sheet.mesh, values.drawn, display.per_face); });
+    sheet.field = cache.steps.field.of({sheet.mesh, state.document.unfolding, number, display.field, by_face(display)},
+                                       [&] { return scene_field(*sheet.mesh, values.drawn, by_face(display)); });
 }
 
 } // namespace

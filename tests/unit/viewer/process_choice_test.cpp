@@ -189,7 +189,8 @@ TEST_F(ProcessChoice, ZonesAreShownPerFace)
     FieldDisplay display;
     display.field = Field::zone;
     model.apply(SetDisplay{display});
-    EXPECT_TRUE(document.display.per_face);
+    EXPECT_TRUE(by_face(document.display));
+    EXPECT_FALSE(document.display.per_face) << "as the user chose for other fields";
 }
 
 } // namespace spia::viewer

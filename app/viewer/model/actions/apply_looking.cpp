@@ -47,8 +47,6 @@ void ViewerModel::Apply::operator()(const SetDisplay& action)
     state.history.remember("Change display", document,
                            true); // also while another file is being read, which takes it over
     document.display = action.display;
-    // nothing lies between two zones
-    document.display.per_face |= action.display.field == Field::zone;
 }
 
 void ViewerModel::Apply::operator()(const SetViewSettings& action)

@@ -60,9 +60,11 @@ FieldDisplay with_field(FieldDisplay display, Field field, std::optional<ColourM
     return display;
 }
 
+bool by_face(const FieldDisplay& display) { return display.per_face || display.field == Field::zone; }
+
 bool is_smoothed(const FieldDisplay& display)
 {
-    return !display.per_face && display.field != Field::none && display.field != Field::zone &&
+    return !by_face(display) && display.field != Field::none &&
            display.field != Field::deviation; // that is measured at the vertices
 }
 

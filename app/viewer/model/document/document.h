@@ -72,7 +72,7 @@ struct SectionLine {
 /// How the fields of the sheet are shown on the part and the blank.
 struct FieldDisplay {
     Field field = Field::thinning;
-    bool per_face = false;
+    bool per_face = false;                      ///< as the user chose, see by_face()
     std::optional<std::array<double, 2>> range; ///< in the unit of the field; not given: its least
                                                 ///< and greatest value
     std::optional<ColourMap> map;               ///< not given: diverging where zero matters, else
@@ -87,6 +87,8 @@ struct FieldDisplay {
 };
 /// Of another field: the range was that of the former.
 FieldDisplay with_field(FieldDisplay display, Field field, std::optional<ColourMap> map);
+/// Whether each face has one colour: as chosen, and of zones, between two of which nothing lies.
+bool by_face(const FieldDisplay& display);
 /// Whether the colours of a field are means at the vertices, which peaks of single faces exceed.
 bool is_smoothed(const FieldDisplay& display);
 

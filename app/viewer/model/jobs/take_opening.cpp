@@ -153,8 +153,11 @@ void ViewerModel::report_failed(const ChainResult& result)
         state_.refused_file.reset();
     }
     if (!state_.refused || !reading) {
+        // the engine's advice comes after a semicolon; that of the window takes its place
+        const std::string fault =
+            *result.failed == Stage::grid ? result.message.substr(0, result.message.rfind(';')) : result.message;
         say(Severity::error,
-            fmt::format("{} {}", sentence(result.message),
+            fmt::format("{}{} {}", sentence(fault), fault.ends_with(')') ? "." : "",
                         reading                         ? "Choose another file."
                         : *result.failed == Stage::grid ? grid_advice(result.session, result.message)
                                                         : advice(*result.failed, result.session.options)),

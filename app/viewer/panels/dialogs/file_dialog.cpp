@@ -280,15 +280,35 @@ void FileDialog::new_folder_row(bool enter)
 
 /// Says how many files are left out, and lets show them; at the right, in the row that says what
 /// there is.
+std::string FileDialog::others_text() const
+{
+    return show_all_ ? "All files" : fmt::format("{} other file{} not shown", others_, others_ == 1 ? " is" : "s are");
+}
+
+float FileDialog::width_of_others() const
+{
+    if (others_ == 0)
+        return 0;
+    const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+    return ImGui::CalcTextSize("Show all files").x + box + ImGui::CalcTextSize(others_text().c_str()).x +
+           2 * ImGui::GetStyle().ItemSpacing.x;
+}
+
+void FileDialog::problem_row(const Frame& frame)
+{
+    const float room = ImGui::GetContentRegionAvail().x - width_of_others() - ImGui::GetStyle().ItemSpacing.x;
+    const std::string shown = without_middle(problem_, room);
+    ImGui::TextColored(palette_of(frame.state.view.dark).error, "%s", shown.c_str());
+    if (shown != problem_)
+        tooltip(problem_);
+}
+
 void FileDialog::others_row()
 {
     if (others_ == 0)
         return;
-    const std::string text =
-        show_all_ ? "All files" : fmt::format("{} other file{} not shown", others_, others_ == 1 ? " is" : "s are");
-    const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x,
-                width = ImGui::CalcTextSize("Show all files").x + box + ImGui::CalcTextSize(text.c_str()).x +
-                        2 * ImGui::GetStyle().ItemSpacing.x;
+    const std::string text = others_text();
+    const float width = width_of_others();
     ImGui::SameLine(std::max(ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x,
                              ImGui::GetWindowContentRegionMax().x - width));
     ImGui::TextDisabled("%s", text.c_str());
@@ -363,7 +383,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
                     answer_buttons_height(frame) + gap);
     ImGui::AlignTextToFramePadding();
     if (!problem_.empty())
-        ImGui::TextColored(palette_of(frame.state.view.dark).error, "%s", problem_.c_str());
+        problem_row(frame);
     else if (confirm_)
         ImGui::TextColored(palette_of(frame.state.view.dark).warning, "This file exists already.");
     else if (entries_.empty())

@@ -48,6 +48,9 @@ private:
     void move_cursor(int rows);
     void list(const Frame& frame, float below);
     void new_folder_row(bool enter);
+    std::string others_text() const;
+    float width_of_others() const; ///< pixels, of what others_row() shows
+    void problem_row(const Frame& frame);
     void others_row();
     /// Goes to the folder that is typed, if it is another one. @returns whether there is none or it
     /// could be done
