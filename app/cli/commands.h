@@ -60,13 +60,13 @@ struct RunArguments {
     GridOptions grid; ///< without the numbers of cells
     CurveEnds ends = CurveEnds::averaged_knots;
     FitParameters fit_parameters = FitParameters::blank;
-    std::optional<double> tolerance;  ///< mm, of the surface; not given: it runs through the grid
+    std::optional<double> tolerance;  ///< mm, of the surface; not given: of one patch none
     std::vector<int> degree = {3, 3}; ///< of the surface, along u and v
     int max_control_points = FitOptions{}.max_control_points;
     bool fill_holes = false;
     std::string deform;                     ///< file of a deformation of the finished surface;
                                             ///< empty: none
-    std::string patches = "one";            ///< one, auto, or a file of cuts
+    std::string patches = "best";           ///< best, one, auto, or a file of cuts
     bool smooth_joins = false;              ///< of patches
     std::optional<double> patch_edges = {}; ///< degrees, of edges on which patches end
     std::vector<std::string> formats;

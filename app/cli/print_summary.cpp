@@ -103,6 +103,8 @@ void print_summary(const Session& session)
                               figures.surface->control_points)
                 : fmt::format("{} x {} control points", surface.count_u, surface.count_v),
         figures.surface->deviation_max, figures.surface->deviation_rms);
+    if (!session.surface->choice.empty())
+        say("          {}\n", session.surface->choice);
     if (const TrimResult& trim = session.surface->trim; !trim.loop.empty())
         say("holes     {}, of IGES and STEP files, within {:.2g} mm of {} vertices\n",
             counted(trim.loop.size(), "trimming curve", "trimming curves"), trim.distance,

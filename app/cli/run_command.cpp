@@ -46,6 +46,15 @@ LimitsOptions limits_options(const RunArguments& arguments)
     return result;
 }
 
+/// Whether any option is for one patch, the plain surface over the whole blank.
+bool asks_for_one_patch(const RunArguments& arguments)
+{
+    const RunArguments plain;
+    return !arguments.cells.empty() || !arguments.corners.empty() || arguments.grid != plain.grid ||
+           arguments.ends != plain.ends || arguments.fit_parameters != plain.fit_parameters || arguments.fill_holes ||
+           !arguments.deform.empty() || arguments.degree.front() != arguments.degree.back();
+}
+
 SessionOptions options(const RunArguments& arguments)
 {
     SessionOptions result;
@@ -82,6 +91,7 @@ SessionOptions options(const RunArguments& arguments)
     result.interpolate.degree_v = arguments.degree.back();
     result.tolerance = arguments.tolerance;
     result.patches = patch_layout(arguments.patches);
+    result.best_surface = arguments.patches == "best" && !asks_for_one_patch(arguments);
     if (arguments.smooth_joins && !result.patches)
         throw InputError("--smooth-joins is for patches; ask for them with --patches auto, or leave it out");
     if (arguments.smooth_joins)

@@ -58,7 +58,7 @@ inline constexpr Option tolerance{
     .value = "MM",
     .range = Range{1e-9, 1e9},
     .help = "mm, two-sided, between the surface and the part: least squares with knots where they are needed (default: "
-            "the surface through the nodes of the grid)",
+            "1/1000 of the part's diagonal; of one patch that is asked for the surface through the nodes of the grid)",
     .label = "Within a tolerance",
     .place = "the step NURBS surface"};
 inline constexpr Option degree{.name = "degree",
@@ -104,16 +104,20 @@ inline constexpr Option deform{
     .help = "moves control points of the finished surface, or all of it by a lattice around it (JSON, "
             "spia.deformation/1)"};
 
-inline constexpr Choice layouts[] = {{"one", {}, {}, "\"one patch\" in the step NURBS surface"},
+inline constexpr Choice layouts[] = {{"best", {}, {}, "\"automatic\" in the step NURBS surface"},
+                                     {"one", {}, {}, "\"one patch\" in the step NURBS surface"},
                                      {"auto", {}, {}, "\"several patches\" in the step NURBS surface"},
                                      {"FILE", {}, {}, "pick their ends with the tool Vertex"}};
 inline constexpr Option patches{
     .name = "patches",
-    .value = "auto|one|FILE",
+    .value = "best|one|auto|FILE",
     .choices = layouts,
-    .help = "one patch over the blank with its holes filled, auto: four-sided patches around the holes and along sharp "
-            "edges, which share their sides, or a file {\"cuts\": [[12, 40], ...], \"corners\": [...], \"edge_deg\": "
-            "45, \"smooth_joins\": true}, vertices of the file",
+    .help = "best: one patch if it is within the tolerance, by default 1/1000 of the part's diagonal, with no fold and "
+            "no more control points than the part has vertices, else several. one: over the blank with its holes "
+            "filled, without a tolerance through the grid; also where an option of one patch is given. auto: "
+            "four-sided patches around the holes and along sharp edges, which share their sides. FILE: {\"cuts\": "
+            "[[12, 40], ...], \"corners\": [...], \"edge_deg\": 45, \"smooth_joins\": true}, vertices of the part's "
+            "file",
     .label = "Made of",
     .place = "the step NURBS surface"};
 inline constexpr Option patch_edges{

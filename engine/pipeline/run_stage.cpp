@@ -20,6 +20,7 @@
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/blank/part_bends.h"
 #include "engine/pipeline/blank/sharp_folds.h"
+#include "engine/pipeline/make_surface.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/usual_tolerance.h"
 #include "engine/unfold/step/polish.h"
@@ -222,145 +223,32 @@ void grid(Session& session, const Progress& progress)
     session.grid = std::make_shared<GridStage>(GridStage{std::move(boundary), std::move(result)});
 }
 
+/// A blank without a grid for one patch may have one for several.
+void try_grid(Session& session, const Progress& progress)
+{
+    try {
+        grid(session, progress);
+    } catch (const InputError& reason) {
+        session.no_grid = reason.what();
+    }
+}
+
+bool goes_without_grid(const Session& session)
+{
+    return session.options.patches || (session.options.best_surface && !session.no_grid.empty());
+}
+
 void lift_grid(Session& session, const Progress& progress)
 {
     progress.checkpoint(0, "lifting the grid");
-    session.lifted = std::make_shared<LiftResult>(lift(session.grid->result));
-}
-
-/// The part as it was read, and the faces that fill holes of the remeshed one.
-TriMesh with_holes_filled(const TriMesh& original, const TriMesh& filled, int part_triangles)
-{
-    const Eigen::Index faces = filled.triangles() - part_triangles;
-    TriMesh result;
-    result.position.resize(3, original.vertices() + filled.vertices());
-    result.position << original.position, filled.position;
-    result.triangle.resize(3, original.triangles() + faces);
-    result.triangle << original.triangle, (filled.triangle.rightCols(faces).array() + original.vertices()).matrix();
-    return result;
-}
-
-/// The surface within the tolerance, its points taken from the grid's map of the blank wherever
-/// they are needed.
-FitResult fit_within_tolerance(const Session& session, const Progress& progress)
-{
-    const SessionOptions& options = session.options;
-    const FilledMesh& filled = *session.grid->result.filled;
-    FitOptions fitting;
-    fitting.tolerance = *options.tolerance;
-    fitting.degree_u = options.interpolate.degree_u;
-    fitting.degree_v = options.interpolate.degree_v;
-    fitting.ends = options.interpolate.ends;
-    fitting.parameters = options.fit_parameters;
-    fitting.max_control_points = options.max_control_points;
-    fitting.part_faces = filled.part_triangles;
-    fitting.file_number = session.part->source_vertex;
-    const BlankChart chart(session.grid->result, session.grid->boundary);
-    double at = 0; // how far the fit is, which asks for points now and then
-    const Progress noted([&](double fraction, std::string_view step) { progress.checkpoint(at = fraction, step); });
-    const Progress while_asked([&](double, std::string_view step) { progress.checkpoint(at, step); });
-    FitSource source;
-    source.at = [&](const std::vector<double>& u, const std::vector<double>& v) {
-        return lift(chart.refined(u, v, while_asked)).lifted.position;
-    };
-    return fit(source, filled.mesh, fitting, noted);
-}
-
-void make_surface(Session& session, const Progress& progress)
-{
-    const auto& remeshed = session.part->remeshed;
-    const FilledMesh& filled = *session.grid->result.filled;
-    constexpr double measured = 0.95; // what follows is the certificate
-    SurfaceStage stage;
-    DeviationOptions options;
-    options.part_faces = filled.part_triangles;
-    options.tolerance = session.options.tolerance.value_or(usual_tolerance);
-    if (session.options.tolerance) {
-        FitResult fitted = fit_within_tolerance(session, progress.part(0, remeshed ? 0.6 : measured));
-        stage.result.surface = std::move(fitted.surface);
-        stage.result.u = std::move(fitted.u);
-        stage.result.v = std::move(fitted.v);
-        stage.deviation = std::move(fitted.deviation);
-        stage.fit = std::move(fitted.report);
-    } else {
-        stage.result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
-        options.data_u = stage.result.u;
-        options.data_v = stage.result.v;
-        stage.deviation =
-            deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : measured));
+    try {
+        session.lifted = std::make_shared<LiftResult>(lift(session.grid->result));
+    } catch (const InputError& reason) {
+        if (!session.options.best_surface)
+            throw;
+        session.no_grid = reason.what();
+        session.grid = nullptr;
     }
-    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is
-                    // shown
-        const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
-        options.part_faces = remeshed->original->triangles();
-        Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
-        stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, measured));
-        stage.deviation.at_vertex = std::move(at_vertex);
-    }
-    stage.deviation.beyond.clear(); // needed no longer, and may be long
-    if (!session.options.fill_holes)
-        stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface, {},
-                                progress.part(measured, measured));
-    stage.certificate = certify(fitted_patches(stage), progress.part(measured, 1));
-    session.surface = std::make_shared<SurfaceStage>(std::move(stage));
-}
-
-int vertex_in_mesh(const PartFile& part, int in_file)
-{
-    const std::vector<int> copies = vertices_called(part, in_file);
-    if (copies.empty())
-        throw InputError(fmt::format(
-            "vertex {} of the cuts is not one of the part; vertices count from 0 in the file's order", in_file));
-    return copies.front();
-}
-
-/// Patches around the holes take the place of grid, lift and fit.
-void make_patches(Session& session, const Progress& progress)
-{
-    const PartFile& part = *session.part;
-    if (session.blank->flipped_triangles > 0)
-        throw InputError(fmt::format("the blank has triangles that are turned over: it cannot be divided into patches; "
-                                     "remesh the part ({}), or take one patch ({})",
-                                     mention(option::remesh), mention(option::patches, "one")));
-    LayoutOptions layout = *session.options.patches;
-    layout.file_number = part.source_vertex;
-    for (int& v : layout.corners)
-        v = vertex_in_mesh(part, v);
-    for (LayoutCut& cut : layout.cuts)
-        for (int& v : cut)
-            v = vertex_in_mesh(part, v);
-    PatchesFitOptions options;
-    options.tolerance = session.options.tolerance.value_or(1e-3 * bounding_diagonal(part.mesh));
-    options.degree = session.options.interpolate.degree_u;
-    options.max_control_points = session.options.max_control_points;
-    options.smooth_joins = layout.smooth_joins;
-    auto fitted = std::make_shared<PatchesFit>(
-        blank_patches(part.mesh, session.blank->blank, layout, options, progress.part(0, 0.95)));
-    SurfaceStage stage;
-    stage.deviation.surface_to_mesh = fitted->surface_to_mesh;
-    stage.deviation.mesh_to_surface = fitted->mesh_to_surface;
-    stage.deviation.at_vertex = fitted->at_vertex;
-    stage.fit.emplace();
-    stage.fit->tolerance = options.tolerance;
-    stage.fit->reached = fitted->reached;
-    stage.fit->rounds = fitted->rounds;
-    stage.fit->attempts = fitted->attempts;
-    if (!fitted->reached) {
-        FitShortfall& why = stage.fit->shortfall;
-        const bool out = fitted->surface_to_mesh.max >= fitted->mesh_to_surface.max;
-        why.where = out ? fitted->surface_to_mesh.where : fitted->mesh_to_surface.where;
-        why.reason = FitShortfall::Reason::data;
-        why.text = fmt::format(
-            "the patches stay up to {:.3g} mm from the part, more than the tolerance of {:.3g} mm, near {:.6g}, "
-            "{:.6g}, {:.6g} mm: a sharp edge or corner within a patch, or too few control points "
-            "({}); let patches end on flatter edges ({}), cut along the edge ({}), or allow more",
-            fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z(),
-            mention(option::max_control_points), mention(option::patch_edges, option::patch_edges.value),
-            mention(option::patches, "FILE"));
-    }
-    stage.patches = std::move(fitted);
-    stage.certificate = certify(stage.patches->patches, progress.part(0.95, 1));
-    session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
 void require(bool there, const char* what)
@@ -401,6 +289,12 @@ MultiPatch surface_patches(const Session& session)
 const Certificate& surface_certificate(const Session& session)
 {
     return session.deformed ? session.deformed->certificate : session.surface->certificate;
+}
+
+bool made_of_patches(const Session& session)
+{
+    const SessionOptions& options = session.options;
+    return options.patches || (options.best_surface && session.surface && session.surface->patches);
 }
 
 Session deform_surface(Session session, bool measure, const Progress& progress)
@@ -466,8 +360,10 @@ Session run_stage(Stage stage, Session session, const Progress& progress, const 
     }
     if (stage <= Stage::lift)
         session.lifted = nullptr;
-    if (stage <= Stage::grid)
+    if (stage <= Stage::grid) {
         session.grid = nullptr;
+        session.no_grid.clear();
+    }
     if (stage <= Stage::solve) {
         session.blank = nullptr;
         session.bends = nullptr;
@@ -489,19 +385,21 @@ Session run_stage(Stage stage, Session session, const Progress& progress, const 
         break;
     case Stage::grid:
         require(session.blank != nullptr, "solve for the blank");
-        if (!session.options.patches)
+        if (session.options.best_surface)
+            try_grid(session, progress);
+        else if (!session.options.patches)
             grid(session, progress);
         break;
     case Stage::lift:
-        if (session.options.patches)
+        if (goes_without_grid(session))
             break;
         require(session.grid != nullptr, "make a grid");
         lift_grid(session, progress);
         break;
     case Stage::fit:
-        require(session.options.patches ? session.blank != nullptr : session.lifted != nullptr,
-                session.options.patches ? "solve for the blank" : "lift the grid");
-        session.options.patches ? make_patches(session, progress) : make_surface(session, progress);
+        require(session.blank != nullptr, "solve for the blank");
+        require(goes_without_grid(session) || session.lifted, "lift the grid");
+        make_surface(session, progress);
         session = deform_surface(std::move(session), true, progress.part(1, 1));
         break;
     }

@@ -59,6 +59,9 @@ struct SessionOptions {
     /// within the tolerance or 1/1000 of the part's diagonal; cuts and corners are vertices of the
     /// file. The session then has neither grid nor lifted one.
     std::optional<LayoutOptions> patches;
+    /// The program chooses between one patch and a layout, see make_surface(), and holds either
+    /// within the tolerance or 1/1000 of the part's diagonal. `patches` is not given then.
+    bool best_surface = false;
     FitParameters fit_parameters = FitParameters::blank; ///< where a tolerance is given
     int max_control_points = FitOptions{}.max_control_points;
     std::optional<Deformation> deformation; ///< of the finished surface; not given: it stays as it
@@ -83,6 +86,7 @@ struct SurfaceStage {
     std::optional<FitReport> fit; ///< where a tolerance was given
     TrimResult trim;              ///< by the holes of the part; empty if they are to be filled
     Certificate certificate;      ///< what analysis asks of it, patch by patch
+    std::string choice;           ///< what the program chose and why, in words; empty: it was asked for
 };
 
 /// The surface as patches, as it was fitted: those of the layout, or the one.
@@ -109,11 +113,15 @@ struct Session {
     std::shared_ptr<const LimitsResult> limits;  ///< of the blank; made together with it
     std::shared_ptr<const GridStage> grid;
     std::shared_ptr<const LiftResult> lifted;
+    std::string no_grid; ///< why there is none, where the surface may be of patches instead
     std::shared_ptr<const SurfaceStage> surface;
     std::shared_ptr<const DeformedSurface> deformed; ///< the same, where a deformation is asked for
 
     std::map<Stage, double> seconds; ///< of each stage that has run
 };
+
+/// Whether the surface is to be of a layout: asked for, or chosen by the program.
+bool made_of_patches(const Session& session);
 
 /// Finds out what would end a later stage, as soon as the part is read.
 /// @throws InputError if there is no part, or a corner that was asked for is no vertex of its

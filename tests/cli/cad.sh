@@ -4,7 +4,7 @@ set -euo pipefail
 spia=$1 source=$2 out=$3
 . "$(dirname "$0")/common.sh"
 triangles() { grep -o '"triangles": [0-9]*' "$out/info.json" | grep -o '[0-9]*'; }
-expect 0 "" "$spia" run "$source/assets/parts/dome.obj" --out "$out" --formats step --name dome
+expect 0 "" "$spia" run "$source/assets/parts/dome.obj" --out "$out" --patches one --formats step --name dome
 step="$out/dome.step"
 expect 0 "holds  *body:0  *dome .*1 face, sheet body" "$spia" info "$step" --no-remesh --json "$out/info.json"
 grep -q '"choice": "body:0"' "$out/info.json" || fail "no items in the JSON"

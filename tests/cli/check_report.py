@@ -25,7 +25,7 @@ for fact in re.findall(r"""(?:src|href|url)\s*[=(]\s*["']?([^"')>\s]*)""", html)
 if "http" in html:
     faults.append("names an address")
 pictures = re.findall(r"data:image/png;base64,([^\"]*)\"", html)
-if len(pictures) != (2 if "grid" in figures else 1):
+if len(pictures) != (2 if "grid" in figures or "surface" in figures else 1):
     faults.append(f"{len(pictures)} pictures")
 for picture in pictures:
     if not base64.b64decode(picture, validate=True).startswith(b"\x89PNG\r\n\x1a\n"):

@@ -12,7 +12,12 @@ channel=$parts/lipped-channel.obj
 run 0 "50 % of the lines by bends, evened out, 0 folded" "$channel" --to-bends 0.5 --even-cells --json "$out/a.json"
 grep -q '"to_bends": 0.5' "$out/a.json" || fail "the report does not tell the share"
 grep -q '"evened": true' "$out/a.json" || fail "the report does not tell that cells were evened out"
-run 0 "Coons patch, 0 folded" "$parts/dome.obj" --json "$out/a.json"
+run 0 "Coons patch, 0 folded" "$parts/dome.obj" --patches one --json "$out/a.json"
+# Nothing asked for: patches where one would be ill-shaped, one where it is good, the plain surface where the grid is given.
+run 0 "5 patches of a layout; one patch over the whole blank: scaled Jacobian 0.00" "$parts/dome.obj"
+run 0 "^          one patch over the whole blank" "$parts/fender.obj" --json "$out/a.json"
+run 0 "least scaled Jacobian" "$parts/dome.obj" --grid 20x20 --json "$out/a.json"
+grep -q "\"choice\"" "$out/a.json" && fail "the grid was asked for"
 grep -q '"to_bends": 0.0' "$out/a.json" || fail "lines went to bends unasked"
 run 2 "--to-bends is a share of the lines, from 0 to 0.9" "$channel" --to-bends nan
 run 2 "are for the grid of one patch" "$channel" --patches auto --to-bends 0.5
@@ -49,5 +54,6 @@ echo "grid: all as it should be"
 # A flat U, whose one patch cuts its corners: said, and with --strict no success. Asked for a tolerance there is a verdict of its own.
 awk 'BEGIN { for (j = 0; j <= 4; ++j) for (i = 0; i <= 6; ++i) print "v", 10 * i, 10 * j, 0
              for (j = 0; j < 4; ++j) for (i = 1; i <= 6; ++i) if (j < 1 || i < 3 || i > 4) print "f", 7 * j + i, 7 * j + i + 1, 7 * j + i + 8, 7 * j + i + 7 }' > "$out/u.obj"
-run 0 "WARNING .*usual tolerance of 0.1 mm" "$out/u.obj"
-run 1 "WARNING .*usual tolerance of 0.1 mm" "$out/u.obj" --strict
+run 0 "WARNING .*usual tolerance of 0.1 mm" "$out/u.obj" --patches one
+run 1 "WARNING .*usual tolerance of 0.1 mm" "$out/u.obj" --patches one --strict
+run 0 "3 patches of a layout" "$out/u.obj" --strict

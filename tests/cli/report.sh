@@ -9,14 +9,15 @@ run() { # CODE WORDS ARGUMENT...
     shift 2
     expect "$code" "$words" "$spia" run "$@" --formats csv --out "$out/result"
 }
-run 0 "^wrote     .*dome.html" "$parts/dome.obj" --report "$out/dome.html" --json "$out/dome.json"
+run 0 "^wrote     .*dome.html" "$parts/dome.obj" --patches one --report "$out/dome.html" --json "$out/dome.json"
 check "$out/dome.html" "$out/dome.json" mm "NURBS surface with its control net"
 run 0 "^wrote     .*inch.html" "$parts/dome.obj" --report "$out/inch.html" --json "$out/inch.json" --export-unit inch
 check "$out/inch.html" "$out/inch.json" inch "Lengths in inch"
+grep -q "5 patches of a layout; one patch over the whole blank: " "$out/inch.html" || fail "what was chosen is not told"
 # A flat U, whose one patch cuts its corners: the report says so, also where the run does not count as a success.
 awk 'BEGIN { for (j = 0; j <= 4; ++j) for (i = 0; i <= 6; ++i) print "v", 10 * i, 10 * j, 0
              for (j = 0; j < 4; ++j) for (i = 1; i <= 6; ++i) if (j < 1 || i < 3 || i > 4) print "f", 7 * j + i, 7 * j + i + 1, 7 * j + i + 8, 7 * j + i + 7 }' > "$out/u.obj"
-run 1 "^wrote     .*u.html" "$out/u.obj" --strict --report "$out/u.html" --json "$out/u.json"
+run 1 "^wrote     .*u.html" "$out/u.obj" --strict --patches one --report "$out/u.html" --json "$out/u.json"
 check "$out/u.html" "$out/u.json" mm "<b>Caution:</b> .*usual tolerance of 0.1 mm"
 # A stage without a result after the blank.
 echo '{"schema": "spia.deformation/1", "moves": [{"at": [999, 0], "by": [0, 0, 1]}]}' > "$out/far.json"

@@ -185,10 +185,12 @@ void erase_times(Json& report)
             erase_times(part);
 }
 
-/// What a project does not keep: how long things took, what was said, what can be undone.
+/// What a project does not keep: how long things took, what was said, what can be undone, what the
+/// user prefers (scripts have the standard preferences).
 Json lasting(Json report)
 {
-    for (const char* each : {"frames", "frames_while_solving", "messages", "history", "window", "hovered", "job"})
+    for (const char* each :
+         {"frames", "frames_while_solving", "messages", "history", "window", "hovered", "job", "preferences"})
         report.erase(each);
     erase_times(report["figures"]);
     // a project knows its part by the whole path

@@ -42,7 +42,7 @@ struct Mouse : testing::Test {
     {
         const std::filesystem::path script = folder / "make.json";
         std::ofstream(script) << R"({"schema": "spia-script/1", "actions": [
-            {"do": "open_part", "file": "assets/parts/inner-panel.obj"}, {"do": "wait"},
+            {"do": "open_part", "file": "assets/parts/inner-panel.obj"}, {"do": "wait"}, {"do": "set_patches"},
             {"do": "save_project", "file": "panel.spia"}]})";
         const Ended made = run_viewer(folder, {"--script", script.string()});
         ASSERT_EQ(made.exit_code, 0) << made.errors;

@@ -6,6 +6,10 @@ viewer=$1 scratch=$2
 shift 2
 mkdir -p "$scratch"
 export XDG_CONFIG_HOME="$scratch/config" XDG_STATE_HOME="$scratch/state" LIBGL_ALWAYS_SOFTWARE=1
+# Parts begin with one patch, whose grid and corners most scripts are about.
+mkdir -p "$XDG_CONFIG_HOME/spia"
+[ -e "$XDG_CONFIG_HOME/spia/preferences.json" ] ||
+    echo '{"schema": "spia-preferences/1", "one_patch": true}' >"$XDG_CONFIG_HOME/spia/preferences.json"
 cd "$(dirname "$0")/../.."
 rm -f "$scratch/code"
 # xvfb-run's own exit code is another one where it cannot clean up behind itself.

@@ -25,8 +25,19 @@ constexpr const char *report_file = "report.json", *errors_file = "errors.txt";
 
 void breathe() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
+/// Parts begin with one patch, whose grid and corners most tests are about.
+void prefer_one_patch(const fs::path& folder)
+{
+    const fs::path file = folder / "config" / "spia" / "preferences.json";
+    if (fs::exists(file))
+        return;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << R"({"schema": "spia-preferences/1", "one_patch": true})";
+}
+
 int start(const fs::path& folder, std::vector<std::string> arguments)
 {
+    prefer_one_patch(folder);
     fs::remove(folder / report_file); // of a run before
     arguments.insert(arguments.begin(), SPIA_VIEWER);
     arguments.insert(arguments.end(), {"--report", report_file});

@@ -17,15 +17,23 @@ void drag_corners(Frame& frame, const Mouse& mouse)
 {
     const Session& session = frame.state.document.session;
     Ui& ui = frame.ui;
-    if (!session.blank || !session.grid)
+    if (!session.blank)
         return;
+    if (!session.grid) {
+        if (mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy)
+            frame.events.say(Severity::hint, made_of_patches(session)
+                                                 ? "Patches have corners of their own: choose \"one patch\" in the "
+                                                   "step NURBS surface to choose four."
+                                                 : "Make the grid first (F5); then its corners can be dragged.");
+        return;
+    }
     const Camera& camera = frame.state.view.camera[size_t(View::blank)];
     if (!ui.dragged_corner && mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy)
         for (int k = 0; k < 4; ++k) {
             const Eigen::Vector2d at = session.blank->blank.position.col(session.grid->boundary.corner[size_t(k)]);
             const glm::dvec3 pixel = pixel_of(camera, {at[0], at[1], 0}, mouse.size);
             if (glm::length(glm::dvec2(pixel) - mouse.pixel) < 14 * ui.scale) {
-                ui.dragged_corner = k;
+                ui.dragged_corner = ui.keyed_corner = k;
                 ui.corner_taken_at = mouse.pixel;
             }
         }
@@ -130,7 +138,7 @@ std::string no_measuring(Frame& frame, View view)
         return "A partly unfolded part cannot be measured: move the slider back to the formed part.";
     if (frame.pickers.measuring_mesh(state, view))
         return "";
-    if (view == View::quads && state.document.session.options.patches)
+    if (view == View::quads && made_of_patches(state.document.session))
         return "The quads of patches cannot be measured; measure in the view of the surface.";
     return "There is nothing to measure here yet.";
 }

@@ -26,7 +26,7 @@ std::vector<int> vertices(const Json& list, const Place& place, size_t least)
 
 std::optional<LayoutOptions> patch_layout(const std::string& choice)
 {
-    if (choice == "one")
+    if (choice == "one" || choice == "best")
         return std::nullopt;
     LayoutOptions layout;
     if (choice == "auto")

@@ -58,7 +58,7 @@ std::optional<std::string> folded_surface(const Session& session)
     else
         return std::nullopt;
     return text +
-           (session.options.patches
+           (made_of_patches(session)
                 ? fmt::format("; add a cut there ({}), or take one patch ({})", mention(option::patches, "FILE"),
                               mention(option::patches, "one"))
                 : fmt::format("; choose corners at sharp corners of the blank ({}), more cells ({}), or patches ({})",

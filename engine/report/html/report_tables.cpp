@@ -192,6 +192,8 @@ static std::string surface_rows(const Session& session, const ResultFigures& fig
                                                    counted(surface.patches, "patch", "patches"),
                                                    counted(surface.joints, "joint", "joints"), surface.control_points)
                                      : fmt::format("{} \u00d7 {} control points", one.count_u, one.count_v));
+    if (!session.surface->choice.empty())
+        rows += row("Made of", session.surface->choice);
     rows += row("Surface deviation", fmt::format("at most {}, 95 % below {}, RMS {}", in.text(surface.deviation_max),
                                                  in.text(surface.deviation_p95), in.text(surface.deviation_rms)));
     const Certificate& certificate = surface_certificate(session);
@@ -251,7 +253,8 @@ std::string key_figures(const Session& session, const ResultFigures& figures, Le
                                              grid.planar.columns, grid.planar.rows, grid.quality.folded_cells,
                                              fixed(grid.quality.min_scaled_jacobian, 3)));
     } else {
-        rows += row("Quad grid", session.options.patches ? "none: patches have grids of their own" : "not made");
+        rows += row("Quad grid",
+                    session.surface && session.surface->patches ? "none: patches have grids of their own" : "not made");
     }
     return facts("Key figures",
                  rows + (session.surface ? surface_rows(session, figures, in) : row("NURBS surface", "not made")));

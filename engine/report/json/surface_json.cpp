@@ -128,6 +128,8 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
                 {"control_points_v", surface.count_v},
                 {"degree_u", surface.degree_u},
                 {"degree_v", surface.degree_v}};
+    if (!stage.choice.empty())
+        json["choice"] = stage.choice;
     const SurfaceFigures figures = surface_figures(stage);
     json["deviation_max_mm"] = figures.deviation_max;
     json["deviation_rms_mm"] = figures.deviation_rms;

@@ -66,6 +66,13 @@ TEST_F(GridByHand, TheSurfaceIsCutIntoPatches)
     hands->click("several patches");
     hands->click("one patch");
     value("/options/patches", nullptr);
+    hands->see_ready();
+    hands->scroll_to("one patch", left_x, left_y);
+    hands->click("one patch");
+    hands->click("automatic");
+    value("/options/best_surface", true);
+    hands->see_ready();
+    hands->see_part_of_line("5 patches of a layout");
 }
 
 TEST_F(GridByHand, TheSurfaceIsDeformedAndReset)

@@ -420,7 +420,7 @@ TEST(Outputs, AGlbFileHoldsTheSurfaceOnlyIfAskedTo)
     options.glb.surface = true;
     EXPECT_TRUE(holds("glb"));
     EXPECT_FALSE(is_of_surface("glb")) << "it can be without";
-    for (const char* format : {"iges", "step", "g2"})
+    for (const char* format : {"iges", "step", "gismo"})
         EXPECT_TRUE(holds(format) && is_of_surface(format)) << format;
     for (const char* format : {"dxf", "csv", "vtu", "png"})
         EXPECT_FALSE(holds(format) || is_of_surface(format)) << format;

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "app/viewer/model/actions/remedies.h"
-#include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/report/figures/face_values.h"
 #include "tests/support/bent_parts.h"
@@ -175,7 +174,8 @@ TEST_F(Lights, CracksAndForbiddenThinningAreAmberAndShowTheirZones)
     model.apply(HideSpot{});
     EXPECT_EQ(document.display, before) << "Esc goes back in all";
     model.apply(FlyTo{worst.face, doubt.field});
-    EXPECT_TRUE(document.display.per_face) << "as zones are";
+    EXPECT_TRUE(by_face(document.display)) << "as zones are";
+    EXPECT_EQ(document.display.per_face, before.per_face) << "what the user chose comes back";
     model.apply(FlyTo{0, Field::thickness});
     EXPECT_EQ(document.display.field, Field::thickness);
     EXPECT_EQ(document.display.per_face, before.per_face) << "zones alone are";
@@ -316,8 +316,7 @@ TEST_F(Lights, WhereTheStrainIsBeyondTheCurveIsGoneTo)
     const auto found = std::ranges::find(doubts, std::optional(Field::necking), &Doubt::field);
     ASSERT_NE(found, doubts.end());
     EXPECT_THAT(found->text, HasSubstr("strained beyond"));
-    ASSERT_TRUE(found->place);
-    EXPECT_EQ(ClosestPointSearch(mesh).nearest(*found->place).face, worst);
+    EXPECT_EQ(found->face, worst);
     const auto listed = worst_faces(mesh, face_values(beyond.session, Field::necking), Field::necking, 6);
     ASSERT_FALSE(listed.empty());
     EXPECT_EQ(listed.front(), worst) << "as Worst spots lists them";

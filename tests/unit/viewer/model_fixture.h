@@ -9,10 +9,17 @@
 
 namespace spia::viewer {
 
-/// A model without a window, driven by actions alone.
+/// A model without a window, driven by actions alone. Parts begin with one patch, whose grid and
+/// corners most tests are about.
 struct ModelFixture : testing::Test {
     const std::filesystem::path assets = SPIA_SOURCE_DIR "/assets";
     ViewerModel model{assets};
+    ModelFixture()
+    {
+        Preferences preferences = model.state().preferences;
+        preferences.one_patch = true;
+        model.apply(SetPreferences{preferences});
+    }
     const ViewerState& state = model.state();
     const Document& document = state.document;
 

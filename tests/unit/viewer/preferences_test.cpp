@@ -28,7 +28,7 @@ protected:
 
 Preferences all_changed()
 {
-    return {false, 150, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, 0.05, MouseStyle::nx};
+    return {false, 150, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, true, 0.05, MouseStyle::nx};
 }
 
 TEST_F(KeptPreferencesFile, ComeBackAsTheyWereKept)
@@ -137,10 +137,11 @@ TEST_F(Preferring, RefusesWhatIsNone)
     for (const auto& spoil :
          {+[](Preferences& p) { p.interface_percent = 20; }, +[](Preferences& p) { p.lengths = LengthUnit::m; },
           +[](Preferences& p) { p.material = "unobtainium"; }, +[](Preferences& p) { p.thickness_mm = 0; }}) {
-        Preferences wrong;
+        const Preferences before = state.preferences;
+        Preferences wrong = before;
         spoil(wrong);
         model.apply(SetPreferences{wrong});
-        EXPECT_EQ(state.preferences, Preferences{});
+        EXPECT_EQ(state.preferences, before);
         EXPECT_TRUE(std::any_of(state.messages.begin(), state.messages.end(),
                                 [](const Message& m) { return m.severity == Severity::error; }));
         model.apply(DismissMessages{});

@@ -105,7 +105,8 @@ std::vector<Action> every_action()
             {"Door <1>", "two\nlines", {View::quads}, false, {true, false, true, false, true}, LengthUnit::inch}});
         set(Screenshot{"picture.png", View::blank, 800, 600, false, false, true});
         set(SaveAnimation{"way.gif", 12, 3, 320, 200, false, false});
-        set(SetPreferences{{false, 125, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, 0.05, MouseStyle::catia}});
+        set(SetPreferences{
+            {false, 125, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, true, 0.05, MouseStyle::catia}});
         ViewSettings view;
         view.camera[1].turn = glm::dquat(0.5, 0.5, -0.5, 0.5);
         view.camera[3].target = {1, 2, 3};

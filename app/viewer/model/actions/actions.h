@@ -139,9 +139,11 @@ struct SetFit {
 };
 
 /// "set_patches", of the surface: patches {cuts [[vertex of the file, ...], ...], corners [vertex
-/// of the file, ...], edge_deg, smooth_joins}, patches around the holes; null: one patch.
+/// of the file, ...], edge_deg, smooth_joins}, patches around the holes; null: one patch, or with
+/// `best` the program's choice of one or several.
 struct SetPatches {
     std::optional<LayoutOptions> patches = {};
+    bool best = false;
 };
 /// "add_cut": patches meet along the picked vertices, whose ends are on the border of the part;
 /// with holes in the sheet or without.
@@ -403,8 +405,8 @@ struct SetViewSettings {
     ViewSettings view;
 }; ///< "set_view": no matter of undo
 /// "set_preferences": dark, interface_percent (75 to 200), lengths ("mm", "inch"), material (empty:
-/// none is chosen), thickness_mm, map and tolerance_mm (null: none is chosen); parts that are
-/// opened from then on begin with them. No matter of undo.
+/// none is chosen), thickness_mm, map and tolerance_mm (null: none is chosen), one_patch (else the
+/// program chooses what a surface is made of); parts that are opened from then on begin with them. No matter of undo.
 struct SetPreferences {
     Preferences preferences;
 };

@@ -65,13 +65,14 @@ struct ViewerModel::Apply {
     void operator()(const SetKFactor& action);
     /// Numbers in the file, chosen or proposed.
     std::array<int, 4> corners_now() const;
+    void take_one_patch();          ///< in the place of the program's choice
     void require_one_patch() const; ///< @throws InputError if there are patches
     void operator()(const SetCorner& action);
     void operator()(const ProposeCorners&);
     void operator()(const SetGrid& action);
     void operator()(const SetFit& action);
-    void change_patches(std::string name, std::optional<LayoutOptions> patches);
-    void operator()(const SetPatches& action) { change_patches("Change the patches", action.patches); }
+    void change_patches(std::string name, std::optional<LayoutOptions> patches, bool best = false);
+    void operator()(const SetPatches& action) { change_patches("Change the patches", action.patches, action.best); }
     void operator()(const AddCut&);
     void operator()(const RemoveCut& action);
     void operator()(const SetLimits& action);

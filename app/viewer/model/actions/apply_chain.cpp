@@ -7,6 +7,7 @@
 #include "app/viewer/model/document/chain.h"
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/blank/part_bends.h"
+#include "engine/pipeline/make_surface.h"
 
 namespace spia::viewer {
 
@@ -194,9 +195,21 @@ std::array<int, 4> ViewerModel::Apply::corners_now() const
 
 void ViewerModel::Apply::require_one_patch() const
 {
-    if (session.options.patches)
+    if (made_of_patches(session))
         throw InputError(
             "The surface is made of patches, which have corners of their own: choose \"One patch\" in the step NURBS surface first.");
+}
+
+/// Who moves a corner or changes the grid wants one patch, as near to the part as the program's
+/// choice was.
+void ViewerModel::Apply::take_one_patch()
+{
+    if (!std::exchange(session.options.best_surface, false))
+        return;
+    if (session.part && !session.options.tolerance)
+        session.options.tolerance = best_tolerance(session);
+    if (session.surface)
+        model.say(Severity::hint, "The surface is made of one patch from now on, see the step NURBS surface.");
 }
 
 void ViewerModel::Apply::operator()(const SetCorner& action)
@@ -235,6 +248,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
         state.history.close();
     corners[size_t(action.corner)] = in_file;
     session.options.corners = corners;
+    take_one_patch();
     model.dragging_ = action.dragging;
     if (action.dragging)
         model.run_to(Stage::lift, "Making the grid");
@@ -248,6 +262,7 @@ void ViewerModel::Apply::operator()(const ProposeCorners&)
     const bool unsaved = state.document.unsaved;
     change("Propose corners");
     session.options.corners.reset();
+    take_one_patch();
     if (session.blank)
         run_of_change(Stage::fit, "Making the grid", unsaved);
 }
@@ -261,6 +276,7 @@ void ViewerModel::Apply::operator()(const SetGrid& action)
     const bool unsaved = state.document.unsaved;
     change("Change grid", true);
     session.options.grid = grid;
+    take_one_patch();
     if (session.blank)
         run_of_change(Stage::fit, "Making the grid", unsaved);
 }
@@ -272,7 +288,7 @@ void ViewerModel::Apply::operator()(const SetFit& action)
     const bool unsaved = state.document.unsaved;
     change("Change the surface");
     session.options = std::move(options);
-    if (session.lifted || (session.blank && session.options.patches))
+    if (session.lifted || (session.blank && (session.options.patches || session.options.best_surface)))
         run_of_change(Stage::fit, "Fitting the surface", unsaved);
 }
 

@@ -7,16 +7,23 @@
 
 namespace spia::viewer {
 
-void ViewerModel::Apply::change_patches(std::string name, std::optional<LayoutOptions> patches)
+void ViewerModel::Apply::change_patches(std::string name, std::optional<LayoutOptions> patches, bool best)
 {
     part();
-    if (session.options.patches == patches)
+    if (patches && best)
+        throw InputError("The program chooses between one patch and a layout of its own: give a layout, or best.");
+    if (session.options.patches == patches && session.options.best_surface == best)
         return;
     const bool unsaved = state.document.unsaved;
     change(std::move(name));
     session.options.patches = std::move(patches);
+    session.options.best_surface = best;
     if (session.blank)
-        run_of_change(Stage::fit, session.options.patches ? "Making the patches" : "Making one patch", unsaved);
+        run_of_change(Stage::fit,
+                      best                      ? "Making the surface"
+                      : session.options.patches ? "Making the patches"
+                                                : "Making one patch",
+                      unsaved);
 }
 
 void ViewerModel::Apply::operator()(const AddCut&)

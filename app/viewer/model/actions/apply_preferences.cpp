@@ -44,6 +44,7 @@ void ViewerModel::Apply::begin_as_preferred(Document& fresh) const
         sheet.thickness = *wanted.thickness_mm;
         fresh.thickness_from = SheetSource::preference;
     }
+    fresh.session.options.best_surface = !wanted.one_patch;
     if (wanted.tolerance_mm)
         fresh.session.options.tolerance = wanted.tolerance_mm;
 }

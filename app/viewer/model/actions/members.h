@@ -303,6 +303,7 @@ inline constexpr auto members_of<Preferences> =
                member("material", &Preferences::material),
                member("thickness_mm", &Preferences::thickness_mm, Between{1e-6, 1e3}),
                member("map", &Preferences::map),
+               member("one_patch", &Preferences::one_patch),
                member("tolerance_mm", &Preferences::tolerance_mm, Between{1e-9, most_mm}),
                member("mouse", &Preferences::mouse)};
 

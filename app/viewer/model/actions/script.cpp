@@ -97,7 +97,7 @@ constexpr std::tuple forms{
     form<ProposeCorners>("propose_corners"),
     form_of_inner("set_grid", &SetGrid::grid),
     form_of_inner("set_fit", &SetFit::fit),
-    form<SetPatches>("set_patches", member("patches", &SetPatches::patches)),
+    form<SetPatches>("set_patches", member("patches", &SetPatches::patches), member("best", &SetPatches::best)),
     form<AddCut>("add_cut"),
     form<RemoveCut>("remove_cut", required("cut", &RemoveCut::cut, any_index)),
     form<SetLattice>("set_lattice", member("lattice", &SetLattice::lattice)),

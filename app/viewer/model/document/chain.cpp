@@ -61,6 +61,7 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
         made_with.interpolate = options.interpolate;
         set_fit(made_with, fit_choice(options));
         made_with.patches = options.patches;
+        made_with.best_surface = options.best_surface;
         break;
     }
 }
@@ -102,16 +103,15 @@ std::optional<Stage> first_stale(const Document& document)
         return Stage::read;
     if (!session.blank || !blank_holds(document))
         return Stage::solve;
-    if (wanted.patches) // which need no grid of the whole
-        return session.surface && wanted.patches == made.patches && fit_choice(wanted) == fit_choice(made)
-                   ? std::nullopt
-                   : std::optional(Stage::fit);
+    const bool fitted_as_wanted = session.surface && wanted.patches == made.patches &&
+                                  wanted.best_surface == made.best_surface && fit_choice(wanted) == fit_choice(made);
+    if (wanted.patches || !session.no_grid.empty() || (fitted_as_wanted && session.surface->patches))
+        return fitted_as_wanted ? std::nullopt : std::optional(Stage::fit); // without a grid of the whole
     if (!session.grid || wanted.corners != made.corners || wanted.grid != made.grid)
         return Stage::grid;
     if (!session.lifted)
         return Stage::lift;
-    if (!session.surface || fit_choice(wanted) != fit_choice(made) ||
-        wanted.interpolate.parameters != made.interpolate.parameters || made.patches.has_value())
+    if (!fitted_as_wanted || wanted.interpolate.parameters != made.interpolate.parameters)
         return Stage::fit;
     return std::nullopt;
 }
@@ -177,8 +177,10 @@ std::string advice(Stage failed, const SessionOptions& options)
     case Stage::grid: return "Drag the corners to sharp corners of the blank, or choose the harmonic method.";
     case Stage::lift: return "Choose the automatic grid method.";
     case Stage::fit:
-        return options.patches ? "Add a cut there, or choose one patch in the step NURBS surface."
-                               : "Choose a finer grid.";
+        return options.best_surface ? "Choose one patch or several patches in the step NURBS surface to see what is in "
+                                      "the way of each."
+               : options.patches    ? "Add a cut there, or choose one patch in the step NURBS surface."
+                                    : "Choose a finer grid.";
     }
     return "";
 }

@@ -20,8 +20,9 @@ struct Preferences {
     std::optional<double> thickness_mm;  ///< likewise; null: none is chosen
     std::optional<ColourMap> map;        ///< of fields; null: diverging where zero matters, else
                                          ///< viridis
-    std::optional<double> tolerance_mm;  ///< of the surface from the part; null: it runs through
-                                         ///< the nodes of the grid
+    bool one_patch = false;              ///< what the surface is made of; else the program chooses
+    std::optional<double> tolerance_mm;  ///< of the surface from the part; null: 1/1000 of the
+                                         ///< diagonal, of one patch through the nodes of the grid
     MouseStyle mouse = MouseStyle::spia; ///< how it moves the camera
 
     friend bool operator==(const Preferences&, const Preferences&) = default;

@@ -51,6 +51,7 @@ struct StoredProject {
     bool natural_ends = false; ///< how older files have the ends
     std::optional<FitChoice> fit;
     std::optional<LayoutOptions> patches;
+    bool best_surface = false; ///< older files have one patch then
     std::vector<ControlMove> moved_controls;
     std::optional<Lattice> lattice;
     InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
@@ -186,6 +187,7 @@ inline constexpr auto members_of<StoredProject> =
                member("natural_ends", &StoredProject::natural_ends),
                member("fit", &StoredProject::fit),
                member("patches", &StoredProject::patches),
+               member("best_surface", &StoredProject::best_surface),
                member("moved_controls", &StoredProject::moved_controls),
                member("lattice", &StoredProject::lattice, is_sound),
                member("parameters", &StoredProject::parameters),
@@ -346,6 +348,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
                                                                                        : CurveEnds::averaged_knots}));
     session.options.interpolate.parameters = stored.parameters;
     session.options.patches = stored.patches;
+    session.options.best_surface = stored.best_surface && !stored.patches;
     if (!stored.moved_controls.empty() || stored.lattice)
         session.options.deformation = Deformation{stored.moved_controls, stored.lattice};
     document.edge_restraint = stored.edge_restraint;
@@ -397,6 +400,7 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.natural_ends = session.options.interpolate.ends == CurveEnds::natural;
     stored.fit = fit_choice(session.options);
     stored.patches = session.options.patches;
+    stored.best_surface = session.options.best_surface;
     if (const auto& deformation = session.options.deformation) {
         stored.moved_controls = deformation->moves;
         stored.lattice = deformation->lattice;

@@ -140,8 +140,10 @@ void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
         text = fmt::format("{} above the forming limit curve: the sheet cracks there.",
                            counted(count, "face is", "faces are"));
     if (const int count = faces(Zone::excessive_thinning); count > 0)
-        text += fmt::format("{}{} the allowed thinning of {:.4g} %.", text.empty() ? "" : " ",
-                            counted(count, "face exceeds", "faces exceed"), 100 * limits.settings.max_thinning);
+        text += fmt::format("{} the allowed thinning of {:.4g} %.",
+                            text.empty() ? counted(count, "face exceeds", "faces exceed")
+                                         : " " + counted(count, "more face exceeds", "more faces exceed"),
+                            100 * limits.settings.max_thinning);
     if (text.empty())
         return;
     Doubt doubt{ChainStep::unfold, text};
@@ -178,26 +180,29 @@ void judge_cells(const Document& document, std::vector<Doubt>& doubts)
 void answer_shortfall(const Document& document, const SurfaceStage& surface, LengthUnit lengths, Doubt& doubt)
 {
     const SessionOptions& options = document.session.options;
+    const bool one_patch = !options.patches && !options.best_surface; // else both were tried
     const double reached = reached_tolerance(surface);
     doubt.place = surface.deviation.worse().where;
     doubt.next = fmt::format("Or raise the tolerance to {}.", length_text(reached, lengths, 3));
     switch (surface.fit->shortfall.reason) {
     case FitShortfall::Reason::sharp_edge:
     case FitShortfall::Reason::outline_corner:
-        if (!options.patches) {
+        if (one_patch) {
             doubt.button = "Use several patches";
             doubt.remedy = Remedy::several_patches;
             return;
         }
         break;
     case FitShortfall::Reason::data:
-        if (!options.patches) {
+        if (one_patch) {
             doubt.button = fmt::format("Make the grid of {} cells", finer_cells(options.grid));
             doubt.remedy = Remedy::finer_grid;
             return;
         }
         break;
     default:
+        if (options.best_surface)
+            break;
         doubt.button = fmt::format("Allow {} control points", more_control_points(options.max_control_points));
         doubt.remedy = Remedy::more_control_points;
         return;
@@ -276,7 +281,9 @@ void judge_joints(const Document& document, std::vector<Doubt>& doubts)
          fmt::format("Patches join with a kink of up to {:.3g} degrees, while the part turns by at most {:.2g} degrees "
                      "from triangle to triangle.",
                      degrees(angle), degrees(turn)),
-         "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
+         document.session.options.best_surface
+             ? "Choose \"one patch\", or \"several patches\" and cut elsewhere."
+             : "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
 }
 
 void judge_folds(const Document& document, std::vector<Doubt>& doubts)
@@ -289,7 +296,7 @@ void judge_folds(const Document& document, std::vector<Doubt>& doubts)
     for (const PatchCertificate& patch : surface_certificate(document.session).patch)
         if (patch.refusal && !doubt.place)
             doubt.place = patch.refusal->place.position;
-    if (document.session.options.patches)
+    if (made_of_patches(document.session))
         doubt.next = "Add a cut there with the tool Vertex, or choose \"one patch\".";
     else {
         doubt.next = "Drag the corners to sharp corners of the blank, or:";

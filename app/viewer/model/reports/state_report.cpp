@@ -74,6 +74,7 @@ Json options_json(const Document& document)
             {"grid", written(options.grid)},
             {"fit", written(fit_choice(options))},
             {"patches", written(options.patches)},
+            {"best_surface", options.best_surface},
             {"moved_controls", options.deformation ? options.deformation->moves.size() : 0},
             {"lattice", options.deformation && options.deformation->lattice
                             ? written(options.deformation->lattice->count)

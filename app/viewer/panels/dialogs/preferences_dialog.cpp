@@ -106,9 +106,13 @@ void part_rows(Frame& frame, PreferenceChoices& choices)
     chosen_length(frame, "of all parts", "##thickness", edited.thickness_mm, choices.thickness_mm, edited.lengths,
                   {.mm = "%.4g"}, {1e-3, 1e3});
     form_row("Surface");
+    ImGui::Checkbox("of one patch", &edited.one_patch);
+    tooltip("Otherwise the program chooses between one patch and several");
+    form_row("");
     chosen_length(frame, "fitted within", "##tolerance", edited.tolerance_mm, choices.tolerance_mm, edited.lengths,
                   {.mm = "%.4g", .inch = "%.3g"}, {1e-6, 1e3});
-    tooltip("Largest distance from the part; without it the surface runs through the nodes of the grid");
+    tooltip(
+        "Largest distance from the part; without it 1/1000 of the part's diagonal, or of one patch through the nodes of the grid");
 }
 
 } // namespace

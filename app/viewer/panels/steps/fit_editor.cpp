@@ -8,6 +8,7 @@
 #include "app/viewer/model/reports/lights.h"
 #include "app/viewer/panels/option_fields.h"
 #include "engine/options/surface_options.h"
+#include "engine/pipeline/make_surface.h"
 
 namespace spia::viewer {
 
@@ -24,12 +25,15 @@ void fit_editor(Frame& frame, FitChoice fit)
     const float label = ImGui::CalcTextSize(option::max_control_points.label.data()).x, // the longest
         width = std::min(150 * frame.ui.scale,
                          ImGui::GetContentRegionAvail().x - label - ImGui::GetStyle().ItemInnerSpacing.x);
-    const bool patches = frame.state.document.session.options.patches.has_value();
+    const SessionOptions& options = frame.state.document.session.options;
+    const bool patches = options.patches || options.best_surface;
     bool changed = false;
     bool limited = fit.tolerance.has_value();
+    // The one in use, if the program has chosen it: a tick changes no surface.
+    const double offered = frame.state.preferences.tolerance_mm.value_or(
+        patches ? best_tolerance(frame.state.document.session) : usual_tolerance);
     if (ImGui::Checkbox("Within a tolerance", &limited)) {
-        fit.tolerance =
-            limited ? std::optional(frame.state.preferences.tolerance_mm.value_or(usual_tolerance)) : std::nullopt;
+        fit.tolerance = limited ? std::optional(option::tolerance.range->nearest(offered)) : std::nullopt;
         changed = true;
     }
     tooltip(
@@ -38,7 +42,7 @@ void fit_editor(Frame& frame, FitChoice fit)
             : "The surface is fitted to the part with as few control points as the tolerance allows. Otherwise it runs through the nodes of the grid");
     // The field is there whether or not it is asked for: a tick moves nothing.
     ImGui::BeginDisabled(!fit.tolerance);
-    double tolerance = fit.tolerance.value_or(frame.state.preferences.tolerance_mm.value_or(usual_tolerance));
+    double tolerance = fit.tolerance.value_or(offered);
     ImGui::SetNextItemWidth(width);
     const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
     if (length_inputs(frame, unit.c_str(), &tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"}) &&

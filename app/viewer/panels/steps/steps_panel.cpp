@@ -267,7 +267,7 @@ void grid_step(Frame& frame)
         muted(frame, "Unfold the part first.");
         return;
     }
-    if (session.options.patches) {
+    if (made_of_patches(session)) {
         muted(frame, "Not needed: each patch of the surface has its own grid.");
         return;
     }
@@ -344,7 +344,8 @@ void surface_step(Frame& frame)
     }
     patches_editor(frame);
     if (!session.surface) {
-        if (session.lifted || session.options.patches) // say a run was cancelled before this step
+        if (session.lifted || session.options.patches ||
+            session.options.best_surface) // say a run was cancelled before this step
             fit_editor(frame, fit_choice(session.options));
         else
             muted(frame, frame.state.job.running ? fmt::format("Running now: {}.", frame.state.job.title)

@@ -9,6 +9,8 @@
 #include "app/viewer/views/colour_scale.h"
 #include "engine/options/surface_options.h"
 #include "engine/pipeline/shortcomings/unsuited_surface.h"
+#include "engine/report/text/sentence.h"
+#include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
 namespace {
@@ -171,13 +173,16 @@ void patches_editor(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     const auto& patches = session.options.patches;
-    static constexpr const char* names[] = {"one patch", "several patches"};
-    int chosen = patches ? 1 : 0;
+    static constexpr const char* names[] = {"automatic", "one patch", "several patches"};
+    const int before = patches ? 2 : session.options.best_surface ? 0 : 1;
+    int chosen = before;
     ImGui::SetNextItemWidth(150 * frame.ui.scale);
-    if (ImGui::Combo("Made of", &chosen, names, 2) && (chosen == 1) != patches.has_value())
-        frame.actions.push(SetPatches{chosen == 1 ? std::optional(LayoutOptions{}) : std::nullopt});
+    if (ImGui::Combo("Made of", &chosen, names, 3) && chosen != before)
+        frame.actions.push(SetPatches{chosen == 2 ? std::optional(LayoutOptions{}) : std::nullopt, chosen == 0});
     tooltip(
-        "One patch covers the holes; CAD files trim it there. Several patches leave the holes open, as analysis needs, and join without gaps.");
+        "Automatic: one patch if it is within the tolerance without folds and with few control points, else several. One patch covers the holes; CAD files trim it there. Several patches leave the holes open, as analysis needs, and join without gaps.");
+    if (session.options.best_surface && session.surface && !session.surface->choice.empty())
+        muted(frame, in_shown_lengths(sentence(session.surface->choice), frame.lengths()));
     if (!patches)
         return;
     for (size_t k = 0; k < patches->cuts.size(); ++k) {

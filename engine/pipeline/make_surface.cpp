@@ -1,0 +1,246 @@
+#include "engine/pipeline/make_surface.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/layout/simplify/simplify_layout.h"
+#include "engine/mesh/topology.h"
+#include "engine/nurbs/blank_chart.h"
+#include "engine/options/part_options.h"
+#include "engine/options/surface_options.h"
+#include "engine/part/vertex_numbers.h"
+#include "engine/pipeline/usual_tolerance.h"
+
+namespace spia {
+namespace {
+
+/// The part as it was read, and the faces that fill holes of the remeshed one.
+TriMesh with_holes_filled(const TriMesh& original, const TriMesh& filled, int part_triangles)
+{
+    const Eigen::Index faces = filled.triangles() - part_triangles;
+    TriMesh result;
+    result.position.resize(3, original.vertices() + filled.vertices());
+    result.position << original.position, filled.position;
+    result.triangle.resize(3, original.triangles() + faces);
+    result.triangle << original.triangle, (filled.triangle.rightCols(faces).array() + original.vertices()).matrix();
+    return result;
+}
+
+/// What is asked of one patch. Without a tolerance it runs through the nodes of the grid.
+struct OnePatch {
+    std::optional<double> tolerance; ///< mm
+    int max_control_points = 0;
+};
+
+/// The surface within the tolerance, its points taken from the grid's map of the blank wherever
+/// they are needed.
+FitResult fit_within_tolerance(const Session& session, const OnePatch& asked, const Progress& progress)
+{
+    const SessionOptions& options = session.options;
+    const FilledMesh& filled = *session.grid->result.filled;
+    FitOptions fitting;
+    fitting.tolerance = *asked.tolerance;
+    fitting.degree_u = options.interpolate.degree_u;
+    fitting.degree_v = options.interpolate.degree_v;
+    fitting.ends = options.interpolate.ends;
+    fitting.parameters = options.fit_parameters;
+    fitting.max_control_points = asked.max_control_points;
+    fitting.part_faces = filled.part_triangles;
+    fitting.file_number = session.part->source_vertex;
+    const BlankChart chart(session.grid->result, session.grid->boundary);
+    double at = 0; // how far the fit is, which asks for points now and then
+    const Progress noted([&](double fraction, std::string_view step) { progress.checkpoint(at = fraction, step); });
+    const Progress while_asked([&](double, std::string_view step) { progress.checkpoint(at, step); });
+    FitSource source;
+    source.at = [&](const std::vector<double>& u, const std::vector<double>& v) {
+        return lift(chart.refined(u, v, while_asked)).lifted.position;
+    };
+    return fit(source, filled.mesh, fitting, noted);
+}
+
+SurfaceStage one_patch(const Session& session, const OnePatch& asked, const Progress& progress)
+{
+    const auto& remeshed = session.part->remeshed;
+    const FilledMesh& filled = *session.grid->result.filled;
+    constexpr double measured = 0.95; // what follows is the certificate
+    SurfaceStage stage;
+    DeviationOptions options;
+    options.part_faces = filled.part_triangles;
+    options.tolerance = asked.tolerance.value_or(usual_tolerance);
+    if (asked.tolerance) {
+        FitResult fitted = fit_within_tolerance(session, asked, progress.part(0, remeshed ? 0.6 : measured));
+        stage.result.surface = std::move(fitted.surface);
+        stage.result.u = std::move(fitted.u);
+        stage.result.v = std::move(fitted.v);
+        stage.deviation = std::move(fitted.deviation);
+        stage.fit = std::move(fitted.report);
+    } else {
+        stage.result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
+        options.data_u = stage.result.u;
+        options.data_v = stage.result.v;
+        stage.deviation =
+            deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : measured));
+    }
+    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is
+                    // shown
+        const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
+        options.part_faces = remeshed->original->triangles();
+        Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
+        stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, measured));
+        stage.deviation.at_vertex = std::move(at_vertex);
+    }
+    stage.deviation.beyond.clear(); // needed no longer, and may be long
+    if (!session.options.fill_holes)
+        stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface, {},
+                                progress.part(measured, measured));
+    stage.certificate = certify(fitted_patches(stage), progress.part(measured, 1));
+    return stage;
+}
+
+int vertex_in_mesh(const PartFile& part, int in_file)
+{
+    const std::vector<int> copies = vertices_called(part, in_file);
+    if (copies.empty())
+        throw InputError(fmt::format(
+            "vertex {} of the cuts is not one of the part; vertices count from 0 in the file's order", in_file));
+    return copies.front();
+}
+
+/// Patches around the holes take the place of grid, lift and fit.
+SurfaceStage several_patches(const Session& session, const Progress& progress)
+{
+    const PartFile& part = *session.part;
+    if (session.blank->flipped_triangles > 0)
+        throw InputError(fmt::format("the blank has triangles that are turned over: it cannot be divided into patches; "
+                                     "remesh the part ({}), or take one patch ({})",
+                                     mention(option::remesh), mention(option::patches, "one")));
+    LayoutOptions layout = session.options.patches.value_or(LayoutOptions{});
+    layout.file_number = part.source_vertex;
+    for (int& v : layout.corners)
+        v = vertex_in_mesh(part, v);
+    for (LayoutCut& cut : layout.cuts)
+        for (int& v : cut)
+            v = vertex_in_mesh(part, v);
+    PatchesFitOptions options;
+    options.tolerance = best_tolerance(session);
+    options.degree = session.options.interpolate.degree_u;
+    options.max_control_points = session.options.max_control_points;
+    options.smooth_joins = layout.smooth_joins;
+    auto fitted = std::make_shared<PatchesFit>(
+        blank_patches(part.mesh, session.blank->blank, layout, options, progress.part(0, 0.95)));
+    SurfaceStage stage;
+    stage.deviation.surface_to_mesh = fitted->surface_to_mesh;
+    stage.deviation.mesh_to_surface = fitted->mesh_to_surface;
+    stage.deviation.at_vertex = fitted->at_vertex;
+    stage.fit.emplace();
+    stage.fit->tolerance = options.tolerance;
+    stage.fit->reached = fitted->reached;
+    stage.fit->rounds = fitted->rounds;
+    stage.fit->attempts = fitted->attempts;
+    if (!fitted->reached) {
+        FitShortfall& why = stage.fit->shortfall;
+        const bool out = fitted->surface_to_mesh.max >= fitted->mesh_to_surface.max;
+        why.where = out ? fitted->surface_to_mesh.where : fitted->mesh_to_surface.where;
+        why.reason = FitShortfall::Reason::data;
+        why.text = fmt::format(
+            "the patches stay up to {:.3g} mm from the part, more than the tolerance of {:.3g} mm, near {:.6g}, "
+            "{:.6g}, {:.6g} mm: a sharp edge or corner within a patch, or too few control points "
+            "({}); let patches end on flatter edges ({}), cut along the edge ({}), or allow more",
+            fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z(),
+            mention(option::max_control_points), mention(option::patch_edges, option::patch_edges.value),
+            mention(option::patches, "FILE"));
+    }
+    stage.patches = std::move(fitted);
+    stage.certificate = certify(stage.patches->patches, progress.part(0.95, 1));
+    return stage;
+}
+
+/// What is in the way of a surface, in words; empty: nothing.
+std::string fault(const SurfaceStage& stage)
+{
+    const double deviation = stage.deviation.max();
+    if (deviation > stage.fit->tolerance)
+        return fmt::format("up to {:.3g} mm from the part with {} control points, where {:.3g} mm are the tolerance",
+                           deviation, shared_controls(fitted_patches(stage)).count, stage.fit->tolerance);
+    const Certificate& certificate = stage.certificate;
+    for (const PatchCertificate& patch : certificate.patch)
+        if (patch.refusal)
+            return describe(*patch.refusal);
+    for (const PatchCertificate& patch : certificate.patch)
+        if (patch.least_scaled < well_shaped_jacobian)
+            return fmt::format("scaled Jacobian {:.2g}, less than {}", patch.least_scaled, well_shaped_jacobian);
+    return "";
+}
+
+/// Of two with a fault: first whether it is free of folds, then how far it is from the part.
+bool nearer(const SurfaceStage& a, const SurfaceStage& b)
+{
+    const bool a_folds = !a.certificate.suited(), b_folds = !b.certificate.suited();
+    return a_folds != b_folds ? b_folds : a.deviation.max() < b.deviation.max();
+}
+
+/// One patch if nothing is in its way, else several, else the better of both.
+void make_best_surface(Session& session, const Progress& progress)
+{
+    std::optional<SurfaceStage> one;
+    std::string against = "no grid, " + session.no_grid;
+    if (session.lifted) {
+        // More than the part has vertices, and the surface follows the facets of its mesh; of 25
+        // parts none that one patch held needed more than 552, so that a long search is for nothing.
+        constexpr int most_of_one = 5000;
+        const OnePatch asked{best_tolerance(session), std::min({session.options.max_control_points, most_of_one,
+                                                                session.part->mesh.vertices()})};
+        one = one_patch(session, asked, progress.part(0, 0.4));
+        against = fault(*one);
+    }
+    if (one && against.empty()) {
+        one->choice = fmt::format("one patch over the whole blank, within {:.3g} mm", one->fit->tolerance);
+        session.surface = std::make_shared<SurfaceStage>(std::move(*one));
+        return;
+    }
+    std::optional<SurfaceStage> several;
+    std::string why_not;
+    try {
+        several = several_patches(session, progress.part(0.4, 1));
+        why_not = fault(*several);
+    } catch (const InputError& reason) {
+        why_not = fmt::format("refused, {}", reason.what());
+        if (!one)
+            throw InputError(fmt::format("one patch over the whole blank: {}; a layout: {}", against, why_not));
+    }
+    if (!several || (one && !why_not.empty() && nearer(*one, *several))) {
+        if (FitShortfall& lack = one->fit->shortfall; lack.reason == FitShortfall::Reason::control_points)
+            lack.text += fmt::format("; one patch that is asked for ({}) may have more of them than the program takes",
+                                     mention(option::patches, "one"));
+        one->choice = fmt::format("one patch over the whole blank ({}); a layout: {}", against, why_not);
+        session.surface = std::make_shared<SurfaceStage>(std::move(*one));
+        return;
+    }
+    several->choice = fmt::format("{} of a layout{}; one patch over the whole blank: {}",
+                                  counted(several->patches->patches.patch.size(), "patch", "patches"),
+                                  why_not.empty() ? "" : fmt::format(" ({})", why_not), against);
+    session.surface = std::make_shared<SurfaceStage>(std::move(*several));
+    session.grid = nullptr;
+    session.lifted = nullptr;
+}
+
+} // namespace
+
+double best_tolerance(const Session& session)
+{
+    return session.options.tolerance.value_or(1e-3 * bounding_diagonal(session.part->mesh));
+}
+
+void make_surface(Session& session, const Progress& progress)
+{
+    const SessionOptions& options = session.options;
+    if (options.best_surface)
+        return make_best_surface(session, progress);
+    session.surface = std::make_shared<SurfaceStage>(
+        options.patches ? several_patches(session, progress)
+                        : one_patch(session, {options.tolerance, options.max_control_points}, progress));
+}
+
+} // namespace spia
