@@ -34,6 +34,29 @@ TEST_F(BestSurfaceChoice, APartBeginsWithItAndHasNoGridWhereItIsOfPatches)
     EXPECT_TRUE(says(Severity::error, "patches, which have corners of their own"));
 }
 
+TEST_F(BestSurfaceChoice, ACancelOnTheWayToPatchesLeavesThoseThatThereWere)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const auto before = document.session.surface;
+    ASSERT_TRUE(before && before->patches);
+    FitChoice finer = fit_choice(document.session.options);
+    finer.tolerance = 0.05e-3 * bounding_diagonal(document.session.part->mesh); // takes a while
+    model.apply(SetFit{finer});
+    const auto fits = [&] { return state.job.step.find("fitting") != std::string::npos; };
+    while (model.busy() && !fits())
+        model.poll();
+    ASSERT_TRUE(fits()) << "the grid that is tried first is made";
+    model.apply(CancelJob{});
+    wait();
+    EXPECT_EQ(document.session.surface, before);
+    EXPECT_FALSE(document.session.grid);
+    EXPECT_EQ(document.session.options.tolerance, std::nullopt);
+    EXPECT_TRUE(says(Severity::hint, "The options are again those of the result that is shown"));
+    EXPECT_EQ(first_stale(document), std::nullopt);
+}
+
 TEST_F(BestSurfaceChoice, WhoChangesTheGridOrACornerWantsOnePatch)
 {
     open("fender.obj");

@@ -109,11 +109,14 @@ bool ViewerModel::forget_run_without_result(const ChainResult& result, const Ses
     const auto unsaved_before = std::exchange(unsaved_before_, std::nullopt);
     const bool of_change = std::exchange(run_of_change_, false);
     const Session& now = result.session;
+    // A grid for one patch that was made on the way to several is none that anyone asked for.
+    const bool on_the_way =
+        result.cancelled && now.options.best_surface && before.surface && before.surface->patches && !now.surface;
     if (!unsaved_before || !(result.cancelled || result.failed) || state_.history.depth() != depth_at_start_ ||
-        now.part != before.part || now.blank != before.blank || now.grid != before.grid)
+        now.part != before.part || now.blank != before.blank || (now.grid != before.grid && !on_the_way))
         return false;
     if (of_change) { // one that has failed stays, for its advice to be followed
-        if (!result.cancelled || now.lifted != before.lifted || now.surface != before.surface)
+        if (!result.cancelled || (!on_the_way && (now.lifted != before.lifted || now.surface != before.surface)))
             return false;
         state_.history.undo(state_.document);
         state_.before = {};
