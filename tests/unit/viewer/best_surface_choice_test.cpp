@@ -83,6 +83,18 @@ TEST_F(BestSurfaceChoice, WhoChangesTheGridOrACornerWantsOnePatch)
     EXPECT_TRUE(says(Severity::hint, "made of one patch from now on"));
 }
 
+TEST_F(BestSurfaceChoice, WhoWantsOnePatchWhereItHadNoGridBeginsWithTheGrid)
+{
+    open();
+    model.apply(RunTo{Stage::solve});
+    wait();
+    Document without = document;
+    without.session.no_grid = "cells fold";
+    EXPECT_EQ(first_stale(without), Stage::fit);
+    without.session.options.best_surface = false;
+    EXPECT_EQ(first_stale(without), Stage::grid);
+}
+
 TEST_F(BestSurfaceChoice, IsChosenAmongThree)
 {
     open();

@@ -406,7 +406,8 @@ struct SetViewSettings {
 }; ///< "set_view": no matter of undo
 /// "set_preferences": dark, interface_percent (75 to 200), lengths ("mm", "inch"), material (empty:
 /// none is chosen), thickness_mm, map and tolerance_mm (null: none is chosen), one_patch (else the
-/// program chooses what a surface is made of); parts that are opened from then on begin with them. No matter of undo.
+/// program chooses what a surface is made of); parts that are opened from then on begin with them.
+/// No matter of undo.
 struct SetPreferences {
     Preferences preferences;
 };

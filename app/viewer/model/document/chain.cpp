@@ -105,7 +105,8 @@ std::optional<Stage> first_stale(const Document& document)
         return Stage::solve;
     const bool fitted_as_wanted = session.surface && wanted.patches == made.patches &&
                                   wanted.best_surface == made.best_surface && fit_choice(wanted) == fit_choice(made);
-    if (wanted.patches || !session.no_grid.empty() || (fitted_as_wanted && session.surface->patches))
+    if (wanted.patches || (wanted.best_surface && !session.no_grid.empty()) ||
+        (fitted_as_wanted && session.surface->patches))
         return fitted_as_wanted ? std::nullopt : std::optional(Stage::fit); // without a grid of the whole
     if (!session.grid || wanted.corners != made.corners || wanted.grid != made.grid)
         return Stage::grid;
