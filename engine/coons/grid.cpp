@@ -227,10 +227,16 @@ std::string corner_words(const GridContext& context, int k, std::span<const int>
     return fmt::format("corner {} (vertex {})", k + 1, file_number.empty() ? v : file_number[size_t(v)]);
 }
 
+/// A corner into which no cell of so many fits, however its border nodes slide.
+std::optional<StraightCorner> straight_corner(const GridContext& context, int columns, int rows)
+{
+    return straight_corner(*context.filled, context.boundary, columns, rows, 1 + slides.back());
+}
+
 /// What the maps would find only after they are made.
 void require_corners(const GridContext& context, int columns, int rows, std::span<const int> file_number)
 {
-    if (const auto found = straight_corner(*context.filled, context.boundary, columns, rows, 1 + slides.back()))
+    if (const auto found = straight_corner(context, columns, rows))
         throw InputError(fmt::format("no cell fits into {}: the outline of the blank does not turn outwards there "
                                      "(inner angle {:.0f} degrees); choose a convex place, or let the corners be "
                                      "proposed",
@@ -325,8 +331,10 @@ void add_map_attempts(std::vector<PlannedAttempt>& attempts, GridContext& contex
             return kept;
         };
         const auto sound = [&] { return is_sound(grid); };
-        attempts.push_back({"harmonic map" + finer, {}, harmonic, sound});
-        attempts.push_back({"area-balanced map" + finer, {}, area_balanced, sound});
+        // The smaller the cells, the straighter is the outline at a corner.
+        const auto cells_fit = [&context, level, m, n] { return level == 0 || !straight_corner(context, m, n); };
+        attempts.push_back({"harmonic map" + finer, cells_fit, harmonic, sound});
+        attempts.push_back({"area-balanced map" + finer, cells_fit, area_balanced, sound});
     }
 }
 
@@ -349,6 +357,9 @@ GridResult sound_grid(GridContext& context, const GridOptions& options, const Pr
         std::vector<std::array<int, 2>> counts = {{columns, rows}};
         if (may_refine)
             counts = finer_counts(options.cells);
+        std::erase_if(counts, [&](const std::array<int, 2>& cells) {
+            return straight_corner(context, cells[0], cells[1]).has_value();
+        });
         std::optional<GridResult> made = spiral_grid(context, counts, own, progress.part(0.5, 1));
         if (made)
             grid = std::move(*made);
@@ -362,8 +373,11 @@ GridResult sound_grid(GridContext& context, const GridOptions& options, const Pr
         attempts.push_back({"spiral grid", [&] { return border_is_possible(context, grid); }, spiral});
     }
     grid.attempts = try_in_order(attempts);
-    if (!is_sound(grid) && options.method != GridMethod::coons)
+    if (!is_sound(grid) && options.method != GridMethod::coons) {
+        if (may_refine) // else finer ones were tried too
+            require_corners(context, columns << most_refinements, rows << most_refinements, file_number);
         throw_impossible(context, grid, file_number);
+    }
     return grid;
 }
 

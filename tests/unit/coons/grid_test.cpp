@@ -273,6 +273,21 @@ TEST(CoonsGrid, ACornerOnAStraightEdgeIsNamedBeforeAnyMapIsMade)
     EXPECT_EQ(steps.find("map"), std::string::npos) << steps;
 }
 
+TEST(CoonsGrid, WhereACornerIsStraightToFinerCellsTheseAreNotTried)
+{
+    const TriMesh part = outlines::part(outlines::l_shape(10, 3, 0.2));
+    std::string steps;
+    const Progress watched([&](double, std::string_view step) { steps += step; });
+    try {
+        grid_of(part, {{0, 0}, {3, 0}, {10, 3}, {0, 10}}, {.cells = 8}, watched);
+        ADD_FAILURE() << "the outline runs straight on there";
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find("no cell fits into corner 2"), 0u) << message;
+    }
+    EXPECT_NE(steps.find("map"), std::string::npos) << "to those of this size it may turn: " << steps;
+}
+
 TEST(CoonsGrid, IsTheSameWhenAskedTwice)
 {
     const TriMesh part = outlines::part(outlines::star(3, 10, 8, 0.3));
