@@ -1,6 +1,3 @@
-#include "app/viewer/render/renderer.h"
-#include "app/viewer/render/view_images.h"
-
 #include <GLFW/glfw3.h>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -14,21 +11,10 @@
 #include "app/viewer/views/colours.h"
 #include "engine/core/colour_map.h"
 #include "engine/core/error.h"
-#include "tests/ui/hidden_window.h"
+#include "tests/ui/render_fixture.h"
 
 namespace spia::viewer {
 namespace {
-
-constexpr int side = 200;   // pixels of the square pictures
-constexpr double room = 10; // mm that they show: 20 pixels per mm, the origin in the middle
-const Look plain{.dark = false, .gradient = false, .samples = 4};
-
-Camera from_above()
-{
-    Camera camera;
-    camera.height = room;
-    return camera;
-}
 
 /// The camera looks up at the other side.
 Camera from_below()
@@ -36,56 +22,6 @@ Camera from_below()
     Camera camera = from_above();
     camera.turn = glm::dquat(0, 0, 1, 0);
     return camera;
-}
-
-/// Triangles in a row of three corners each, facing +z where they are counter-clockwise.
-std::shared_ptr<SceneMesh> triangles(const std::vector<Eigen::Vector3f>& corners)
-{
-    auto mesh = std::make_shared<SceneMesh>();
-    const auto count = Eigen::Index(corners.size());
-    mesh->position.resize(3, count);
-    mesh->normal = Eigen::Matrix3Xf::Zero(3, count);
-    mesh->triangle.resize(3, count / 3);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        mesh->position.col(i) = corners[size_t(i)];
-        mesh->triangle(i % 3, i / 3) = uint32_t(i);
-    }
-    return mesh;
-}
-
-/// From left to right and bottom to top, mm; its lower left triangle first.
-std::shared_ptr<SceneMesh> rectangle(float left, float bottom, float right, float top, float z = 0)
-{
-    return triangles(
-        {{left, bottom, z}, {right, bottom, z}, {left, top, z}, {right, bottom, z}, {right, top, z}, {left, top, z}});
-}
-
-/// Not shaded, without lines: the picture has the colours that are asked for.
-SceneLayer layer(std::shared_ptr<const SceneMesh> mesh, Colour colour = {1, 0, 0, 1})
-{
-    SceneLayer result;
-    result.mesh = std::move(mesh);
-    result.colour = colour;
-    result.lit = false;
-    result.features = false;
-    return result;
-}
-
-Scene scene_of(std::vector<SceneLayer> layers)
-{
-    Scene scene;
-    scene.layers = std::move(layers);
-    return scene;
-}
-
-/// One value per vertex, a function of its place.
-template <class Value> std::shared_ptr<SceneField> field_on(const SceneMesh& mesh, const Value& value)
-{
-    auto field = std::make_shared<SceneField>();
-    field->value.resize(mesh.position.cols());
-    for (Eigen::Index i = 0; i < mesh.position.cols(); ++i)
-        field->value[i] = float(value(Eigen::Vector3f(mesh.position.col(i))));
-    return field;
 }
 
 Eigen::Vector3d rgb_at(const Picture& picture, int x, int y)
@@ -106,16 +42,6 @@ void expect_colour(const Eigen::Vector3d& seen, const Eigen::Vector3d& wanted, d
     EXPECT_LT((seen - wanted).cwiseAbs().maxCoeff(), tolerance)
         << "seen " << seen.transpose() << ", wanted " << wanted.transpose();
 }
-
-class Render : public testing::Test {
-protected:
-    Picture draw(const Scene& scene, const Camera& camera = from_above(), const Look& look = plain)
-    {
-        return renderer.picture(scene, camera, side, side, look);
-    }
-    HiddenWindow window;
-    Renderer renderer;
-};
 
 TEST_F(Render, ATriangleCoversItsShareOfThePixelsAndNothingElse)
 {
@@ -468,81 +394,6 @@ TEST_F(Render, APictureInTilesEqualsThePictureInOne)
             different += std::abs(int(whole.rgba[i]) - int(tiled.rgba[i])) > 3;
         EXPECT_LT(different, int(whole.rgba.size()) / 1000) << (perspective ? "perspective" : "orthographic");
     }
-}
-
-TEST_F(Render, AViewIsDrawnAgainOnlyWhenItShowsSomethingElse)
-{
-    Renderer::Image image;
-    Scene scene = scene_of({layer(rectangle(-2, -2, 2, 2))});
-    Camera camera = from_above();
-    renderer.draw(image, scene, camera, 80, 60, plain);
-    const int once = renderer.pictures_drawn();
-    renderer.draw(image, Scene(scene), camera, 80, 60, plain);
-    EXPECT_EQ(renderer.pictures_drawn(), once);
-    camera.height *= 2;
-    renderer.draw(image, scene, camera, 80, 60, plain);
-    EXPECT_EQ(renderer.pictures_drawn(), once + 1);
-    scene.layers[0].scale.bands = 5;
-    renderer.draw(image, scene, camera, 80, 60, plain);
-    EXPECT_EQ(renderer.pictures_drawn(), once + 2);
-    renderer.draw(image, scene, camera, 81, 60, plain);
-    EXPECT_EQ(renderer.pictures_drawn(), once + 3);
-    const auto dot = [](double x) {
-        auto points = std::make_shared<ScenePoints>();
-        points->point = Eigen::Vector3f(float(x), 0, 0);
-        return points;
-    };
-    for (const double x : {0., 0., 1.}) { // made anew for every frame
-        scene.points = {dot(x)};
-        renderer.draw(image, scene, camera, 81, 60, plain);
-        EXPECT_EQ(renderer.pictures_drawn(), once + (x == 0 ? 4 : 5));
-    }
-    EXPECT_TRUE(renderer.shows(image, scene, camera, 81, 60, plain));
-    EXPECT_FALSE(renderer.shows(image, scene, camera, 81, 61, plain));
-}
-
-TEST_F(Render, ViewsThatAreTooMuchForOneFrameTakeTurnsAndAllArrive)
-{
-    DrawTurns turns(10);
-    std::array<int, 4> drawn{};
-    for (int frame = 0; frame < 12; ++frame) { // all four change all the time, each costs more than
-                                               // the budget
-        turns.begin_frame();
-        int now = 0;
-        for (size_t view = 0; view < 4; ++view)
-            if (turns.may_draw(view, view == 1)) {
-                turns.spent(20);
-                ++drawn[view];
-                ++now;
-            }
-        EXPECT_LE(now, 3); // the first, the urgent one, and the one whose turn it is
-    }
-    EXPECT_EQ(drawn[1], 12);
-    EXPECT_GE(drawn[2], 5);
-    EXPECT_GE(drawn[3], 5);
-    turns.begin_frame();
-    EXPECT_TRUE(turns.may_draw(0, true)); // one is maximised while others wait
-    turns.spent(20);
-    EXPECT_FALSE(turns.any_waits());
-    for (int frame = 0; frame < 2; ++frame) { // what shows already asks as urgent and costs nothing
-        turns.begin_frame();
-        for (size_t view = 0; view < 4; ++view)
-            EXPECT_TRUE(turns.may_draw(view, true) && !(view == 3 && turns.any_waits()));
-    }
-}
-
-TEST_F(Render, WhatNoSceneHoldsAnyMoreIsForgotten)
-{
-    {
-        SceneLayer shown = layer(rectangle(-2, -2, 2, 2));
-        shown.field = field_on(*shown.mesh, [](const Eigen::Vector3f&) { return 1; });
-        draw(scene_of({shown}));
-        EXPECT_EQ(renderer.uploads(), 2u);
-        draw(scene_of({shown}));
-        EXPECT_EQ(renderer.uploads(), 2u);
-    }
-    draw(Scene{});
-    EXPECT_EQ(renderer.uploads(), 0u);
 }
 
 TEST_F(Render, WithoutAGroundOnlyWhatIsThereIsOpaqueWithItsOwnColour)
