@@ -12,6 +12,21 @@ namespace spia::viewer {
 /// As a user has it who has chosen nothing.
 struct BestSurfaceChoice : ModelFixture {
     BestSurfaceChoice() { model.apply(SetPreferences{}); }
+
+    void fit_within(double share_of_diagonal)
+    {
+        FitChoice choice = fit_choice(document.session.options);
+        choice.tolerance = share_of_diagonal * bounding_diagonal(document.session.part->mesh);
+        model.apply(SetFit{choice});
+    }
+    /// Whether it comes to the fit of the running job.
+    bool wait_for_fitting()
+    {
+        const auto fits = [&] { return state.job.step.find("fitting") != std::string::npos; };
+        while (model.busy() && !fits())
+            model.poll();
+        return fits();
+    }
 };
 
 TEST_F(BestSurfaceChoice, APartBeginsWithItAndHasNoGridWhereItIsOfPatches)
@@ -24,11 +39,9 @@ TEST_F(BestSurfaceChoice, APartBeginsWithItAndHasNoGridWhereItIsOfPatches)
     ASSERT_TRUE(document.session.surface->patches) << "a round blank has no corners for one patch";
     EXPECT_FALSE(document.session.grid);
     EXPECT_EQ(first_stale(document), std::nullopt);
-    FitChoice finer = fit_choice(document.session.options);
-    finer.tolerance = 0.5e-3 * bounding_diagonal(document.session.part->mesh);
-    model.apply(SetFit{finer});
+    fit_within(0.5e-3);
     wait();
-    EXPECT_EQ(document.session.surface->fit->tolerance, *finer.tolerance);
+    EXPECT_EQ(document.session.surface->fit->tolerance, document.session.options.tolerance);
     EXPECT_EQ(first_stale(document), std::nullopt);
     model.apply(SetCorner{0, 0});
     EXPECT_TRUE(says(Severity::error, "patches, which have corners of their own"));
@@ -41,13 +54,8 @@ TEST_F(BestSurfaceChoice, ACancelOnTheWayToPatchesLeavesThoseThatThereWere)
     wait();
     const auto before = document.session.surface;
     ASSERT_TRUE(before && before->patches);
-    FitChoice finer = fit_choice(document.session.options);
-    finer.tolerance = 0.05e-3 * bounding_diagonal(document.session.part->mesh); // takes a while
-    model.apply(SetFit{finer});
-    const auto fits = [&] { return state.job.step.find("fitting") != std::string::npos; };
-    while (model.busy() && !fits())
-        model.poll();
-    ASSERT_TRUE(fits()) << "the grid that is tried first is made";
+    fit_within(0.05e-3); // takes a while
+    ASSERT_TRUE(wait_for_fitting()) << "the grid that is tried first is made";
     model.apply(CancelJob{});
     wait();
     EXPECT_EQ(document.session.surface, before);
@@ -55,6 +63,57 @@ TEST_F(BestSurfaceChoice, ACancelOnTheWayToPatchesLeavesThoseThatThereWere)
     EXPECT_EQ(document.session.options.tolerance, std::nullopt);
     EXPECT_TRUE(says(Severity::hint, "The options are again those of the result that is shown"));
     EXPECT_EQ(first_stale(document), std::nullopt);
+}
+
+TEST_F(BestSurfaceChoice, ACancelBeforeThereIsASurfaceLeavesNoGrid)
+{
+    open();
+    model.apply(RunTo{Stage::solve});
+    wait();
+    model.apply(RunTo{Stage::fit});
+    ASSERT_TRUE(wait_for_fitting()) << "the grid that is tried first is made";
+    model.apply(CancelJob{});
+    wait();
+    ASSERT_FALSE(document.session.surface);
+    EXPECT_FALSE(document.session.grid) << "nobody asked for it";
+    EXPECT_TRUE(document.session.blank);
+    EXPECT_EQ(first_stale(document), Stage::grid);
+}
+
+TEST_F(BestSurfaceChoice, AnOptionThatIsChangedDuringAFitTakesItsPlace)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    fit_within(0.05e-3); // takes a while
+    const double former = *document.session.options.tolerance;
+    ASSERT_TRUE(wait_for_fitting());
+    fit_within(2e-3);
+    while (model.busy()) {
+        model.poll();
+        if (const auto& surface = document.session.surface)
+            ASSERT_NE(surface->fit->tolerance, former) << "nobody wants it any more";
+    }
+    ASSERT_TRUE(document.session.surface);
+    EXPECT_EQ(document.session.surface->fit->tolerance, document.session.options.tolerance);
+    EXPECT_EQ(first_stale(document), std::nullopt);
+    EXPECT_FALSE(says(Severity::hint, "cancelled"));
+    EXPECT_EQ(state.history.depth(), 3u) << "the run and two changes";
+}
+
+TEST_F(BestSurfaceChoice, ACancelAfterThatIsACancel)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    fit_within(0.05e-3);
+    ASSERT_TRUE(wait_for_fitting());
+    fit_within(0.04e-3);
+    model.apply(CancelJob{});
+    wait();
+    EXPECT_TRUE(says(Severity::hint, "cancelled. Finished results are kept"));
+    ASSERT_TRUE(document.session.surface) << "of the first run";
+    EXPECT_NE(first_stale(document), std::nullopt);
 }
 
 TEST_F(BestSurfaceChoice, WhoChangesTheGridOrACornerWantsOnePatch)

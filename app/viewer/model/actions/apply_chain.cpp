@@ -134,6 +134,7 @@ void ViewerModel::Apply::operator()(const RunTo& action)
 void ViewerModel::Apply::operator()(const CancelJob&)
 {
     model.next_.reset();
+    model.superseded_ = false;
     model.next_in_one_step_ = false;
     model.blank_next_.reset();
     model.steps_next_ = false;

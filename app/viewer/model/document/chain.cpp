@@ -95,6 +95,12 @@ bool holds(const Document& document, const BlankOfSteps& steps)
     return all_steps_done(document) && steps.run.get() == &document.unfolding->run;
 }
 
+bool makes_same_surface(const SessionOptions& a, const SessionOptions& b)
+{
+    return a.patches == b.patches && a.best_surface == b.best_surface && fit_choice(a) == fit_choice(b) &&
+           a.interpolate.parameters == b.interpolate.parameters && a.corners == b.corners && a.grid == b.grid;
+}
+
 std::optional<Stage> first_stale(const Document& document)
 {
     const Session& session = document.session;

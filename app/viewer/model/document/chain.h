@@ -14,6 +14,9 @@ namespace spia::viewer {
 /// if all is up to date. Old results stay to be looked at until newer ones take their place.
 std::optional<Stage> first_stale(const Document& document);
 
+/// Whether a surface is the same with either, on one blank.
+bool makes_same_surface(const SessionOptions& a, const SessionOptions& b);
+
 /// Whether a blank of steps is still that of the document's list.
 bool holds(const Document& document, const BlankOfSteps& steps);
 

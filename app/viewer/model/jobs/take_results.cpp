@@ -19,6 +19,22 @@ bool of_its_surface(const Session& session, const std::string& text)
     return session.surface && (text == far_surface(session) || text == folded_surface(session));
 }
 
+/// A grid for one patch that was made on the way to what the program chooses is none that anyone
+/// asked for: what there was before stays.
+void leave_out_grid_on_the_way(ChainResult& result, const Document& before)
+{
+    Session& now = result.session;
+    if (!now.options.best_surface || now.surface || now.grid == before.session.grid)
+        return;
+    const bool same_blank = now.blank == before.session.blank;
+    now.grid = same_blank ? before.session.grid : nullptr;
+    now.lifted = same_blank ? before.session.lifted : nullptr;
+    now.surface = same_blank ? before.session.surface : nullptr;
+    now.no_grid = same_blank ? before.session.no_grid : "";
+    result.made_with.corners = before.made_with.corners;
+    result.made_with.grid = before.made_with.grid;
+}
+
 } // namespace
 
 void ViewerModel::take_chain_result()
@@ -50,6 +66,9 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     if (opening_beside_ && !take_opening(result))
         return;
     Document& document = state_.document;
+    if (result.cancelled)
+        leave_out_grid_on_the_way(result, document);
+    const bool superseded = std::exchange(superseded_, false) && std::exchange(result.cancelled, false);
     const bool had_blank = document.session.blank != nullptr;
     const Session before = document.session;
     const LaterResults quads = quads_shown(state_), surface = surface_shown(state_);
@@ -80,7 +99,7 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
         say(Severity::hint, fmt::format("{}: cancelled. Finished results are kept.", title), about_refusal(state_));
     else if (result.failed)
         report_failed(result);
-    else
+    else if (!superseded)
         for (const std::string& text : shortcomings(as_made(document)))
             if (!of_its_surface(document.session, text))
                 say(Severity::warning, text, about_results(state_));
@@ -109,14 +128,11 @@ bool ViewerModel::forget_run_without_result(const ChainResult& result, const Ses
     const auto unsaved_before = std::exchange(unsaved_before_, std::nullopt);
     const bool of_change = std::exchange(run_of_change_, false);
     const Session& now = result.session;
-    // A grid for one patch that was made on the way to several is none that anyone asked for.
-    const bool on_the_way =
-        result.cancelled && now.options.best_surface && before.surface && before.surface->patches && !now.surface;
     if (!unsaved_before || !(result.cancelled || result.failed) || state_.history.depth() != depth_at_start_ ||
-        now.part != before.part || now.blank != before.blank || (now.grid != before.grid && !on_the_way))
+        now.part != before.part || now.blank != before.blank || now.grid != before.grid)
         return false;
     if (of_change) { // one that has failed stays, for its advice to be followed
-        if (!result.cancelled || (!on_the_way && (now.lifted != before.lifted || now.surface != before.surface)))
+        if (!result.cancelled || now.lifted != before.lifted || now.surface != before.surface)
             return false;
         state_.history.undo(state_.document);
         state_.before = {};

@@ -111,6 +111,8 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
         session.options.grid.columns = session.options.grid.rows = 0;
         session.options.grid.cells = std::min(session.options.grid.cells, few);
     }
+    running_chain_ = {session.options, to, dragging_};
+    superseded_ = false;
     state_.job = JobView{};
     state_.job.running = true;
     state_.job.title = std::move(title);
@@ -129,6 +131,15 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
         wake_);
 }
 
+/// Whether what the running job of the chain makes is out of date before it is there.
+bool ViewerModel::is_superseded() const
+{
+    if (opening_ || opening_beside_ || dragging_)
+        return false;
+    return running_chain_.coarse || (running_chain_.to == Stage::fit &&
+                                     !makes_same_surface(running_chain_.options, state_.document.session.options));
+}
+
 void ViewerModel::run_to(Stage to, const std::string& title)
 {
     if (state_.document.session.file.empty()) {
@@ -145,6 +156,11 @@ void ViewerModel::run_to(Stage to, const std::string& title)
     }
     if (chain_job_) { // the newest wish counts, from what is there then
         next_ = std::max(next_.value_or(to), to);
+        if (is_superseded()) {
+            superseded_ = true;
+            chain_job_->cancel();
+            cancelled_at_ = cancelled_at_.value_or(std::chrono::steady_clock::now());
+        }
         return;
     }
     const std::optional<Stage> from = first_stale(state_.document);
@@ -180,7 +196,7 @@ bool ViewerModel::poll()
         // A fit whose next round has more to do than the last one goes back; its bar stands.
         view.fraction = std::max(view.fraction, std::lerp(progress_from_, progress_to_, chain_job_->fraction()));
         view.step = chain_job_->step();
-        view.cancelling = chain_job_->cancelling();
+        view.cancelling = chain_job_->cancelling() && !superseded_;
         if (auto blank = live_->blank.fetch()) {
             const bool first = !view.blank && !state_.document.session.blank;
             view.blank = std::move(*blank);

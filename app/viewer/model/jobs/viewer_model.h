@@ -102,6 +102,7 @@ private:
     void take_chain_result();
     ChainResult leave_chain();
     StepsOutcome leave_steps();
+    bool is_superseded() const;
     bool waited_long_for_cancel() const;
     std::vector<std::string> take_over(Document& document, const ChainResult& result) const;
     std::vector<std::string> restore(Document& document, const StoredPicks& picks,
@@ -151,10 +152,17 @@ private:
     /// run them when the running job has ended
     bool steps_next_ = false;
     std::optional<BlankNext> blank_next_;
-    bool keep_step_ = false;                     ///< the one shown is that of a project
-    bool keep_cameras_ = false;                  ///< those of a project
-    size_t depth_at_start_ = 0;                  ///< of the history, when the running job began
-    bool dragging_ = false;                      ///< a corner: the grid is coarse
+    bool keep_step_ = false;    ///< the one shown is that of a project
+    bool keep_cameras_ = false; ///< those of a project
+    size_t depth_at_start_ = 0; ///< of the history, when the running job began
+    bool dragging_ = false;     ///< a corner: the grid is coarse
+    struct RunningChain {
+        SessionOptions options;
+        Stage to;
+        bool coarse = false; ///< for a corner that is dragged
+    };
+    RunningChain running_chain_;                 ///< what the running job of the chain was begun with
+    bool superseded_ = false;                    ///< it was cancelled for one with newer options
     std::optional<bool> unsaved_before_;         ///< the running job, if it is a change of its own
     std::optional<Stage> next_;                  ///< run this far when the running job has ended
     bool next_in_one_step_ = false;              ///< and not from the blank of the steps
