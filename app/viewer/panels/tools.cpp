@@ -58,7 +58,10 @@ static bool corner_keys(Frame& frame)
     const CornerTrack& track = frame.pickers.track(session);
     const bool to_turn = pressed(frame, GLFW_KEY_UP) || pressed(frame, GLFW_KEY_DOWN);
     const std::vector<int>& outline = to_turn && !track.sharp.empty() ? track.sharp : track.vertex;
-    const std::array<int, 4>& corner = session.grid->boundary.corner;
+    const auto wanted = frame.pickers.corners(session);
+    if (!wanted)
+        return false;
+    const std::array<int, 4>& corner = *wanted;
     const int count = int(track.vertex.size());
     const auto at = std::find(track.vertex.begin(), track.vertex.end(), corner[size_t(chosen)]);
     if (at == track.vertex.end())

@@ -121,7 +121,10 @@ void mark_keyed_corner(const Frame& frame, glm::dvec2 size, ImVec2 from, ImDrawL
     const Session& session = frame.state.document.session;
     if (frame.state.view.tool != Tool::corners || !session.grid || !session.blank)
         return;
-    const int vertex = session.grid->boundary.corner[size_t(frame.ui.keyed_corner)];
+    const auto corners = frame.pickers.corners(session);
+    if (!corners)
+        return;
+    const int vertex = (*corners)[size_t(frame.ui.keyed_corner)];
     const Eigen::Vector2d at = session.blank->blank.position.col(vertex);
     const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(View::blank)], {at[0], at[1], 0}, size);
     draw->AddCircle({from.x + float(pixel.x), from.y + float(pixel.y)}, 12 * frame.ui.scale,
@@ -278,9 +281,9 @@ void end_drags(Frame& frame)
         ui.measuring.clear();
     if (frame.state.view.tool != Tool::line || !frame.state.document.session.part)
         ui.line.clear();
-    const auto& grid = frame.state.document.session.grid;
-    if (ui.dragged_corner && ui.corner_moved && grid)
-        frame.actions.push(SetCorner{*ui.dragged_corner, grid->boundary.corner[size_t(*ui.dragged_corner)], false});
+    if (ui.dragged_corner && ui.corner_moved)
+        if (const auto corners = frame.pickers.corners(frame.state.document.session))
+            frame.actions.push(SetCorner{*ui.dragged_corner, (*corners)[size_t(*ui.dragged_corner)], false});
     ui.dragged_corner.reset();
     ui.corner_moved = false;
     if (ui.handle_drag && ui.handle_drag->moved)

@@ -27,10 +27,13 @@ void drag_corners(Frame& frame, const Mouse& mouse)
                                                  : "Make the grid first (F5); then its corners can be dragged.");
         return;
     }
+    const auto corners = frame.pickers.corners(session);
+    if (!corners)
+        return;
     const Camera& camera = frame.state.view.camera[size_t(View::blank)];
     if (!ui.dragged_corner && mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy)
         for (int k = 0; k < 4; ++k) {
-            const Eigen::Vector2d at = session.blank->blank.position.col(session.grid->boundary.corner[size_t(k)]);
+            const Eigen::Vector2d at = session.blank->blank.position.col((*corners)[size_t(k)]);
             const glm::dvec3 pixel = pixel_of(camera, {at[0], at[1], 0}, mouse.size);
             if (glm::length(glm::dvec2(pixel) - mouse.pixel) < 14 * ui.scale) {
                 ui.dragged_corner = ui.keyed_corner = k;
@@ -41,7 +44,7 @@ void drag_corners(Frame& frame, const Mouse& mouse)
         return;
     const int vertex = nearest_boundary_vertex(frame.pickers.track(session), camera, mouse.pixel, mouse.size);
     const bool down = ImGui::IsMouseDown(0);
-    const int now = session.grid->boundary.corner[size_t(*ui.dragged_corner)];
+    const int now = (*corners)[size_t(*ui.dragged_corner)];
     ui.corner_moved |= glm::length(mouse.pixel - ui.corner_taken_at) > 3 * ui.scale;
     if (down && ui.corner_moved && vertex != now)
         frame.actions.push(SetCorner{*ui.dragged_corner, vertex, true});

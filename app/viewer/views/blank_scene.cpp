@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/picking/vertex_picking.h"
 #include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/measurements.h"
@@ -12,7 +13,6 @@
 #include "app/viewer/views/views.h"
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
-#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {
@@ -46,17 +46,9 @@ std::optional<std::array<int, 4>> corners(const ViewerState& state, SceneCache& 
 {
     const Session& session = state.document.session;
     if (session.options.corners)
-        return cache.chosen_corners.of(
-            {session.part, *session.options.corners}, [&]() -> std::optional<std::array<int, 4>> {
-                std::array<int, 4> result;
-                for (size_t k = 0; k < 4; ++k) {
-                    const auto found = vertices_called(*session.part, (*session.options.corners)[k]);
-                    if (found.empty())
-                        return std::nullopt; // of another file; making the grid says so
-                    result[k] = found[0];
-                }
-                return result;
-            });
+        return cache.chosen_corners.of({session.part, *session.options.corners},
+                                       // of another file there are none; making the grid says so
+                                       [&] { return corners_called(*session.part, *session.options.corners); });
     if (session.grid)
         return session.grid->boundary.corner;
     if (state.view.tool != Tool::corners)

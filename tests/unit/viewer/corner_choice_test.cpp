@@ -1,10 +1,15 @@
 #include "app/viewer/model/jobs/viewer_model.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "app/viewer/model/actions/names.h"
+#include "app/viewer/model/picking/pickers.h"
 #include "app/viewer/views/views.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/shapes.h"
 #include "tests/unit/viewer/model_fixture.h"
 
 namespace spia::viewer {
@@ -114,6 +119,46 @@ TEST_F(CornerChoice, WhileACornerIsDraggedTheQuadsFollowAndTheLastSurfaceStaysAn
     open("square-cup.obj");
     EXPECT_EQ(quads_shown(state).lifted, nullptr) << "to another part";
     EXPECT_EQ(surface_shown(state).surface, nullptr) << "to another part";
+}
+
+TEST_F(CornerChoice, ACornerIsWhereItWasPutBeforeItsGridIsThere)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    Pickers pickers;
+    EXPECT_EQ(pickers.corners(document.session), document.session.grid->boundary.corner);
+    const int former = document.session.grid->boundary.corner[0], chosen = document.session.grid->boundary.side[0][3];
+    model.apply(SetCorner{0, chosen, false});
+    ASSERT_EQ(document.session.grid->boundary.corner[0], former) << "it is being made";
+    ASSERT_TRUE(pickers.corners(document.session));
+    EXPECT_EQ((*pickers.corners(document.session))[0], chosen) << "to be taken again there";
+    wait();
+    model.apply(ProposeCorners{});
+    EXPECT_EQ(pickers.corners(document.session), document.session.grid->boundary.corner);
+}
+
+TEST_F(CornerChoice, ARefusedCornerIsOfThePastOnceCornersAreProposed)
+{
+    const auto file = std::filesystem::path(testing::TempDir()) / "corner-plate.obj";
+    shapes::write_mesh(file, shapes::rectangle(100, 60, 40, 24));
+    model.apply(OpenPart{file, ""});
+    wait();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    ASSERT_TRUE(document.session.grid);
+    const auto& side = document.session.grid->boundary.side[0];
+    model.apply(SetCorner{0, side[side.size() / 2], false});
+    wait();
+    const auto refused = [&] {
+        return std::ranges::any_of(state.messages, [](const Message& message) {
+            return message.shown() && message.text.find("No cell fits into corner 1") == 0;
+        });
+    };
+    EXPECT_TRUE(refused());
+    model.apply(ProposeCorners{});
+    wait();
+    EXPECT_FALSE(refused());
 }
 
 TEST_F(CornerChoice, FourVerticesOfTheOutlineBecomeTheCornersInTheirOrder)

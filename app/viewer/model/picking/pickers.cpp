@@ -119,6 +119,15 @@ const CornerTrack& Pickers::track(const Session& session)
     return track_.get();
 }
 
+std::optional<std::array<int, 4>> Pickers::corners(const Session& session)
+{
+    if (!session.options.corners)
+        return session.grid ? std::optional(session.grid->boundary.corner) : std::nullopt;
+    if (chosen_.of != session.part || chosen_.number != *session.options.corners)
+        chosen_ = {session.part, *session.options.corners, corners_called(*session.part, *session.options.corners)};
+    return chosen_.vertex;
+}
+
 const BoundaryVertices& Pickers::boundary(const Session& session, View view)
 {
     follow(session);

@@ -40,6 +40,9 @@ public:
     const TriMesh* measuring_mesh(const ViewerState& state, View view);
     const RegionSearch& regions(const Session& session); ///< the part must be there
     const CornerTrack& track(const Session& session);    ///< the blank must be there
+    /// The corners that are wanted, vertices of the mesh: the chosen ones, else those of the grid.
+    /// Nothing if there are neither, or a chosen one is of another part.
+    std::optional<std::array<int, 4>> corners(const Session& session);
     /// The part must be there.
     const BoundaryVertices& boundary(const Session& session, View view);
     /// Vertices of the outer boundary in their order; before there is a blank the longest one
@@ -82,6 +85,12 @@ private:
     Eventually<RegionSearch> regions_;
     Eventually<std::vector<int>> longest_;
     Eventually<CornerTrack> track_;
+    struct ChosenCorners {
+        std::shared_ptr<const PartFile> of;
+        std::array<int, 4> number;
+        std::optional<std::array<int, 4>> vertex;
+    };
+    ChosenCorners chosen_;
     Worker worker_;
 };
 

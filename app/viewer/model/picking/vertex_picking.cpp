@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {
@@ -213,6 +214,18 @@ std::optional<VertexDistance> distance_of_picked(const Document& document)
     if (session.blank)
         distance.on_blank = length(session.blank->blank.position);
     return distance;
+}
+
+std::optional<std::array<int, 4>> corners_called(const PartFile& part, const std::array<int, 4>& number)
+{
+    std::array<int, 4> result;
+    for (size_t k = 0; k < 4; ++k) {
+        const std::vector<int> found = vertices_called(part, number[k]);
+        if (found.empty())
+            return std::nullopt;
+        result[k] = found[0];
+    }
+    return result;
 }
 
 } // namespace spia::viewer

@@ -51,4 +51,8 @@ struct VertexDistance {
 /// Nothing unless exactly two vertices of the part are picked.
 std::optional<VertexDistance> distance_of_picked(const Document& document);
 
+/// The vertices of the mesh that corners are called by in the file; nothing if one is of another
+/// part.
+std::optional<std::array<int, 4>> corners_called(const PartFile& part, const std::array<int, 4>& number);
+
 } // namespace spia::viewer
