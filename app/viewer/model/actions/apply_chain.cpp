@@ -27,10 +27,12 @@ template <class Edit> void ViewerModel::Apply::read_again(std::string name, cons
 
 void ViewerModel::Apply::run_of_change(Stage to, const std::string& title, bool unsaved)
 {
+    dismiss_failed_run(state.messages);
     const bool begins = !model.chain_job_;
     model.run_to(to, title);
     if (begins && model.chain_job_) {
         model.run_of_change_ = true;
+        model.changes_of_run_ = 1;
         model.unsaved_before_ = unsaved;
     }
 }

@@ -56,12 +56,19 @@ bool same(const Subject& a, const Subject& b)
     return a.kind == b.kind && a.change == b.change && same(a.object, b.object);
 }
 
+void dismiss_failed_run(std::vector<Message>& messages)
+{
+    for (Message& message : messages)
+        message.dismissed |= message.severity == Severity::error && message.subject.kind == Subject::Kind::change;
+}
+
 void dismiss_before_run(std::vector<Message>& messages)
 {
+    dismiss_failed_run(messages);
     for (Message& message : messages) {
         const Subject::Kind about = message.subject.kind;
         const bool of_results = about == Subject::Kind::results || about == Subject::Kind::steps;
-        message.dismissed |= !of_results && (message.severity != Severity::error || about == Subject::Kind::change);
+        message.dismissed |= !of_results && message.severity != Severity::error;
     }
 }
 

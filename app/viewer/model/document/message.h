@@ -55,6 +55,9 @@ struct Message {
     bool shown() const { return !dismissed && !gone; }
 };
 
+/// What a run said that failed goes before the next one.
+void dismiss_failed_run(std::vector<Message>& messages);
+
 /// Before a run those go that are neither wrong nor about results, which go with what they are
 /// about; so do errors of the run before.
 void dismiss_before_run(std::vector<Message>& messages);

@@ -68,7 +68,11 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     Document& document = state_.document;
     if (result.cancelled)
         leave_out_grid_on_the_way(result, document);
-    const bool superseded = std::exchange(superseded_, false) && std::exchange(result.cancelled, false);
+    const bool superseded = std::exchange(superseded_, false);
+    if (superseded) { // nobody wants to know how it ended
+        result.cancelled = false;
+        result.failed.reset();
+    }
     const bool had_blank = document.session.blank != nullptr;
     const Session before = document.session;
     const LaterResults quads = quads_shown(state_), surface = surface_shown(state_);
@@ -77,7 +81,12 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     // What was picked during the run is taken back without it.
     state_.history.update_since(depth_at_start_, [&](Document& changed) { take_over(changed, result); });
     keep_before(result, quads, surface);
-    const bool taken_back = forget_run_without_result(result, before);
+    if (superseded) {
+        run_of_change_ &= document.session.grid == before.grid && document.session.blank == before.blank;
+        if (!run_of_change_)
+            unsaved_before_.reset();
+    }
+    const bool taken_back = !superseded && forget_run_without_result(result, before);
     opening_ = false;
     if (document.session.part != before.part) {
         state_.refused.reset();
@@ -112,7 +121,7 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
             document.session.options.steps.reset();
         // 1: it was all that had been asked for then
         const double done = progress_to_ < 1 ? progress_to_ : 0;
-        run_to(*next, *next == Stage::solve ? "Unfolding" : "Updating all");
+        run_to(*next, superseded ? title : *next == Stage::solve ? "Unfolding" : "Updating all");
         progress_from_ = state_.job.fraction = done;
         progress_to_ = std::lerp(done, 1, progress_to_);
     }
@@ -128,13 +137,15 @@ bool ViewerModel::forget_run_without_result(const ChainResult& result, const Ses
     const auto unsaved_before = std::exchange(unsaved_before_, std::nullopt);
     const bool of_change = std::exchange(run_of_change_, false);
     const Session& now = result.session;
-    if (!unsaved_before || !(result.cancelled || result.failed) || state_.history.depth() != depth_at_start_ ||
-        now.part != before.part || now.blank != before.blank || now.grid != before.grid)
+    if (!unsaved_before || !(result.cancelled || result.failed) ||
+        state_.history.depth() != (of_change ? depth_noted_ : depth_at_start_) || now.part != before.part ||
+        now.blank != before.blank || now.grid != before.grid)
         return false;
     if (of_change) { // one that has failed stays, for its advice to be followed
         if (!result.cancelled || now.lifted != before.lifted || now.surface != before.surface)
             return false;
-        state_.history.undo(state_.document);
+        for (size_t k = 0; k < changes_of_run_; ++k)
+            state_.history.undo(state_.document);
         state_.before = {};
         return true;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <mutex>
+#include <utility>
 
 #include "app/viewer/model/document/grades.h"
 #include "engine/core/error.h"
@@ -99,7 +100,7 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
     cancelled_at_.reset();
     progress_from_ = 0;
     progress_to_ = 1;
-    depth_at_start_ = state_.history.depth();
+    depth_at_start_ = depth_noted_ = state_.history.depth();
     Session session = document.session;
     if (session.options.steps) { // the tools are not in them
         const bool skins = session.options.flatten.skins;
@@ -134,10 +135,12 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
 /// Whether what the running job of the chain makes is out of date before it is there.
 bool ViewerModel::is_superseded() const
 {
-    if (opening_ || opening_beside_ || dragging_)
+    if (opening_ || opening_beside_)
         return false;
-    return running_chain_.coarse || (running_chain_.to == Stage::fit &&
-                                     !makes_same_surface(running_chain_.options, state_.document.session.options));
+    if (running_chain_.coarse) // a coarse grid is of use as long as its corner is dragged
+        return !dragging_;
+    return running_chain_.to > Stage::solve &&
+           !makes_same_surface(running_chain_.options, state_.document.session.options);
 }
 
 void ViewerModel::run_to(Stage to, const std::string& title)
@@ -157,6 +160,9 @@ void ViewerModel::run_to(Stage to, const std::string& title)
     if (chain_job_) { // the newest wish counts, from what is there then
         next_ = std::max(next_.value_or(to), to);
         if (is_superseded()) {
+            const size_t changes = state_.history.depth() - std::exchange(depth_noted_, state_.history.depth());
+            run_of_change_ &= changes <= 1; // else something else was done meanwhile
+            changes_of_run_ += changes;
             superseded_ = true;
             chain_job_->cancel();
             cancelled_at_ = cancelled_at_.value_or(std::chrono::steady_clock::now());

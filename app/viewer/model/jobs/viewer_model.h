@@ -161,11 +161,13 @@ private:
         Stage to;
         bool coarse = false; ///< for a corner that is dragged
     };
-    RunningChain running_chain_;                 ///< what the running job of the chain was begun with
-    bool superseded_ = false;                    ///< it was cancelled for one with newer options
-    std::optional<bool> unsaved_before_;         ///< the running job, if it is a change of its own
-    std::optional<Stage> next_;                  ///< run this far when the running job has ended
-    bool next_in_one_step_ = false;              ///< and not from the blank of the steps
+    RunningChain running_chain_;         ///< what the running job of the chain was begun with
+    bool superseded_ = false;            ///< it was cancelled for one with newer options
+    size_t depth_noted_ = 0;             ///< of the history, when it began or its options were last seen to change
+    size_t changes_of_run_ = 1;          ///< of the options, that a cancel takes back, see run_of_change_
+    std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
+    std::optional<Stage> next_;          ///< run this far when the running job has ended
+    bool next_in_one_step_ = false;      ///< and not from the blank of the steps
     double progress_from_ = 0, progress_to_ = 1; ///< of what was asked for, that of the running job
     int messages_posted_ = 0;                    ///< messages so far
     DoubtsOf doubts_of_;                         ///< what the doubts of the state were found in
