@@ -162,15 +162,16 @@ std::string fault(const SurfaceStage& stage)
 {
     const double deviation = stage.deviation.max();
     if (deviation > stage.fit->tolerance)
-        return fmt::format("up to {:.3g} mm from the part with {} control points, where {:.3g} mm are the tolerance",
-                           deviation, shared_controls(fitted_patches(stage)).count, stage.fit->tolerance);
+        return fmt::format("up to {:.3g} mm from the part with {} control points (tolerance {:.3g} mm)", deviation,
+                           shared_controls(fitted_patches(stage)).count, stage.fit->tolerance);
     const Certificate& certificate = stage.certificate;
     for (const PatchCertificate& patch : certificate.patch)
         if (patch.refusal)
             return describe(*patch.refusal);
     for (const PatchCertificate& patch : certificate.patch)
         if (patch.least_scaled < well_shaped_jacobian)
-            return fmt::format("scaled Jacobian {:.2g}, less than {}", patch.least_scaled, well_shaped_jacobian);
+            return fmt::format("its sharpest corner has a scaled Jacobian of {:.2g} (1 is best, less than {} is poor)",
+                               patch.least_scaled, well_shaped_jacobian);
     return "";
 }
 
@@ -208,19 +209,21 @@ void make_best_surface(Session& session, const Progress& progress)
     } catch (const InputError& reason) {
         why_not = fmt::format("refused, {}", reason.what());
         if (!one)
-            throw InputError(fmt::format("one patch over the whole blank: {}; a layout: {}", against, why_not));
+            throw InputError(fmt::format("one patch over the whole blank: {}; several patches: {}", against, why_not));
     }
     if (!several || (one && !why_not.empty() && nearer(*one, *several))) {
         if (FitShortfall& lack = one->fit->shortfall; lack.reason == FitShortfall::Reason::control_points)
             lack.text += fmt::format("; one patch that is asked for ({}) may have more of them than the program takes",
                                      mention(option::patches, "one"));
-        one->choice = fmt::format("one patch over the whole blank ({}); a layout: {}", against, why_not);
+        one->choice = fmt::format("one patch over the whole blank, with a fault: {}. Several patches are no better: {}",
+                                  against, why_not);
         session.surface = std::make_shared<SurfaceStage>(std::move(*one));
         return;
     }
-    several->choice = fmt::format("{} of a layout{}; one patch over the whole blank: {}",
-                                  counted(several->patches->patches.patch.size(), "patch", "patches"),
-                                  why_not.empty() ? "" : fmt::format(" ({})", why_not), against);
+    several->choice =
+        fmt::format("{}, because one patch over the whole blank is not good enough: {}{}",
+                    counted(several->patches->patches.patch.size(), "patch", "patches"), against,
+                    why_not.empty() ? "" : fmt::format(". The patches are not without fault: {}", why_not));
     session.surface = std::make_shared<SurfaceStage>(std::move(*several));
     session.grid = nullptr;
     session.lifted = nullptr;

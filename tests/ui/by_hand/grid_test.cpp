@@ -72,7 +72,7 @@ TEST_F(GridByHand, TheSurfaceIsCutIntoPatches)
     hands->click("automatic");
     value("/options/best_surface", true);
     hands->see_ready();
-    hands->see_part_of_line("5 patches of a layout");
+    hands->see_part_of_line("5 patches, because");
 }
 
 TEST_F(GridByHand, TheSurfaceIsDeformedAndReset)

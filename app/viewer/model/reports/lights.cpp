@@ -282,7 +282,7 @@ void judge_joints(const Document& document, std::vector<Doubt>& doubts)
                      "from triangle to triangle.",
                      degrees(angle), degrees(turn)),
          document.session.options.best_surface
-             ? "Choose \"one patch\", or \"several patches\" and cut elsewhere."
+             ? "Choose \"several patches\" and cut elsewhere."
              : "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
 }
 
