@@ -56,6 +56,7 @@ TEST(Cancel, TakesEffectWithinASecondOn100000TrianglesAndKeepsWhatWasFinished)
     FitChoice fit;
     fit.tolerance = 0.1;
     model.apply(SetFit{fit});
+    model.apply(SetPatches{}); // one patch: its grid is a result that is wanted
     model.apply(RunTo{Stage::fit});
     ASSERT_TRUE(wait_until(model, 120, [](const ViewerState& state) { return state.job.step.find("measuring") == 0; }));
     EXPECT_LT(cancel(), 1.0) << "the fit";
