@@ -4,11 +4,11 @@
 #include <fmt/core.h>
 #include <string_view>
 
+#include "app/viewer/model/picking/vertex_picking.h"
 #include "engine/coons/border_check.h"
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
-#include "engine/part/vertex_numbers.h"
 #include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
@@ -100,13 +100,12 @@ std::string grid_advice(const Session& session, std::string_view message)
     } catch (const Error&) { // a blank without extent
         return all;
     }
-    if (session.options.corners)
-        for (size_t k = 0; k < 4; ++k) {
-            const std::vector<int> found = vertices_called(*session.part, (*session.options.corners)[k]);
-            if (found.empty())
-                return "Press \"Propose corners\": the chosen ones belong to another part.";
-            corners[k] = found[0];
-        }
+    if (session.options.corners) {
+        const auto chosen = corners_called(*session.part, *session.options.corners);
+        if (!chosen)
+            return "Press \"Propose corners\": the chosen ones belong to another part.";
+        corners = *chosen;
+    }
     const auto widest = widest_corner(session, corners);
     constexpr double straight_deg = 150; // no turn to the eye
     if (!widest || widest->angle_deg < straight_deg)
