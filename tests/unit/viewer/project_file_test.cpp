@@ -359,6 +359,21 @@ TEST(ProjectFile, ASplitPolygonKeepsItsPickedHalf)
     EXPECT_EQ(reopened(folder / "a.spia", lost).selected, before.selected);
 }
 
+TEST(ProjectFile, VerticesThatShareANumberComeBackWhereTheyWere)
+{
+    Document document = viewer::document_of(SPIA_SOURCE_DIR "/assets/parts/dome.obj", Stage::read);
+    PartFile part = *document.session.part; // as where chords of a rim were divided
+    for (int v = 0; v < part.mesh.vertices(); ++v)
+        part.source_vertex[size_t(v)] = v / 3;
+    document.session.part = std::make_shared<PartFile>(part);
+    document.vertices = {4, 30, 38};
+    const StoredPicks picks = store_picks(document);
+    Document after = document;
+    after.vertices.clear();
+    EXPECT_TRUE(restore_picks(after, picks).empty());
+    EXPECT_EQ(after.vertices, document.vertices);
+}
+
 TEST(ProjectFile, WhatIsNoProjectIsRefusedInPlainWords)
 {
     const ScratchFolder folder;

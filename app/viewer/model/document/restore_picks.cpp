@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/core.h>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -107,7 +108,7 @@ public:
         std::set<int> found;
         std::vector<Eigen::Vector3d> lost;
         for (const StoredVertex& each : stored) {
-            const int vertex = same_ ? numbered(each.vertex) : -1;
+            const int vertex = same_ ? numbered(each.vertex, each.at) : -1;
             if (const int now = vertex >= 0 ? vertex : changed().find_vertex(each); now >= 0)
                 found.insert(now);
             else
@@ -240,12 +241,20 @@ public:
     std::vector<std::string> missing;
 
 private:
-    /// The vertex with this number in the file; -1 if there is none.
-    int numbered(int in_file) const
+    /// The vertex with this number in the file, of several the one nearest to the place: those that
+    /// divide a rim's chords are called like its end. -1 if there is none.
+    int numbered(int in_file, const Eigen::Vector3d& at) const
     {
         const std::vector<int>& numbers = part_.source_vertex;
-        const auto found = std::lower_bound(numbers.begin(), numbers.end(), in_file);
-        return found != numbers.end() && *found == in_file ? int(found - numbers.begin()) : -1;
+        const auto [from, to] = std::equal_range(numbers.begin(), numbers.end(), in_file);
+        int nearest = -1;
+        double least = std::numeric_limits<double>::infinity();
+        for (int v = int(from - numbers.begin()); v < int(to - numbers.begin()); ++v)
+            if (const double distance = (part_.mesh.position.col(v) - at).norm(); distance < least) {
+                least = distance;
+                nearest = v;
+            }
+        return nearest;
     }
 
     const ChangedPart& changed()
