@@ -170,7 +170,7 @@ std::string fault(const SurfaceStage& stage)
             return describe(*patch.refusal);
     for (const PatchCertificate& patch : certificate.patch)
         if (patch.least_scaled < well_shaped_jacobian)
-            return fmt::format("its sharpest corner has a scaled Jacobian of {:.2g} (1 is best, less than {} is poor)",
+            return fmt::format("the sharpest corner has a scaled Jacobian of {:.2g} (1 is best, less than {} is poor)",
                                patch.least_scaled, well_shaped_jacobian);
     return "";
 }
@@ -188,11 +188,10 @@ void make_best_surface(Session& session, const Progress& progress)
     std::optional<SurfaceStage> one;
     std::string against = "no grid, " + session.no_grid;
     if (session.lifted) {
-        // More than the part has vertices, and the surface follows the facets of its mesh; of 25
-        // parts none that one patch held needed more than 552, so that a long search is for nothing.
-        constexpr int most_of_one = 5000;
+        constexpr int most_of_one = 5000; // of 25 parts none that one patch held needed more than
+                                          // 552, so that a long search is for nothing
         const OnePatch asked{best_tolerance(session), std::min({session.options.max_control_points, most_of_one,
-                                                                session.part->mesh.vertices()})};
+                                                                enough_control_points(session.part->mesh)})};
         one = one_patch(session, asked, progress.part(0, 0.4));
         against = fault(*one);
     }
@@ -220,16 +219,24 @@ void make_best_surface(Session& session, const Progress& progress)
         session.surface = std::make_shared<SurfaceStage>(std::move(*one));
         return;
     }
+    const size_t count = several->patches->patches.patch.size();
     several->choice =
-        fmt::format("{}, because one patch over the whole blank is not good enough: {}{}",
-                    counted(several->patches->patches.patch.size(), "patch", "patches"), against,
-                    why_not.empty() ? "" : fmt::format(". The patches are not without fault: {}", why_not));
+        fmt::format("{}, because one patch over the {} is not good enough: {}{}",
+                    count == 1 ? "one patch between four corners of the outline" : counted(count, "patch", "patches"),
+                    count == 1 ? "grid of the blank" : "whole blank", against,
+                    why_not.empty() ? "" : fmt::format(". Not without fault either: {}", why_not));
     session.surface = std::make_shared<SurfaceStage>(std::move(*several));
     session.grid = nullptr;
     session.lifted = nullptr;
 }
 
 } // namespace
+
+int enough_control_points(const TriMesh& part)
+{
+    constexpr int few = 552; // see make_best_surface(); an L bracket of 66 vertices needs 80
+    return std::max(few, part.vertices());
+}
 
 double best_tolerance(const Session& session)
 {

@@ -8,10 +8,14 @@ namespace spia {
 /// has several patches: the tolerance that was asked for, else 1/1000 of the part's diagonal.
 double best_tolerance(const Session& session);
 
+/// So many control points a surface may have before it is suspected to follow the facets of the
+/// mesh: as many as the part has vertices, and some hundreds whatever the mesh.
+int enough_control_points(const TriMesh& part);
+
 /// The surface as it was asked for, through the nodes of the grid, within the tolerance, or of a
 /// layout. Where the program chooses (SessionOptions::best_surface), it is one patch if that is
-/// within the tolerance with no more control points than the part has vertices, proved to be free
-/// of folds, with a scaled Jacobian of well_shaped_jacobian; else a layout; if that lacks any of it
+/// within the tolerance with no more than enough_control_points(), proved to be free of folds,
+/// with a scaled Jacobian of well_shaped_jacobian; else a layout; if that lacks any of it
 /// too, the better of both. SurfaceStage::choice says which and why. With a layout the session has
 /// no grid.
 /// @throws InputError if there is none

@@ -16,6 +16,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/smooth_joins.h"
 #include "engine/options/option.h"
+#include "engine/pipeline/make_surface.h"
 #include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/pipeline/shortcomings/surface_shortcomings.h"
 #include "engine/report/figures/figures.h"
@@ -242,8 +243,9 @@ void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
     if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's
                                           // choice
         return;
-    const int count = surface_figures(surface).control_points, vertices = document.session.part->mesh.vertices();
-    if (count > vertices)
+    const TriMesh& part = document.session.part->mesh;
+    const int count = surface_figures(surface).control_points, vertices = part.vertices();
+    if (count > enough_control_points(part))
         doubts.push_back(
             {ChainStep::surface,
              fmt::format("The surface has {} control points, more than the part has vertices ({}): it follows the "
