@@ -18,7 +18,7 @@ namespace spia {
 namespace {
 
 constexpr double least = 0.9, most = 1.1; // of the thickness: sheet that is as thick, about
-constexpr double square = 0.02;           // the cosine of 89 degrees
+constexpr double upright = 0.02;          // the cosine of 89 degrees
 constexpr double turning = 0.985;         // mean of unit vectors over an arc of 35 degrees
 
 /// Edges of a floor beyond which walls stand square to it, rising from it or going down.
@@ -59,7 +59,7 @@ private:
 
     bool stands(int f, int plane) const
     {
-        return std::abs(normal_.col(f).normalized().dot(planes_.direction.col(plane))) < square;
+        return std::abs(normal_.col(f).normalized().dot(planes_.direction.col(plane))) < upright;
     }
     /// mm over the plane, of the corner that is farthest from it.
     double height(int f, int plane) const

@@ -15,11 +15,11 @@
 namespace spia {
 namespace {
 
-constexpr double square = 0.17, flat = 0.985; // sines of 10 and of 80 degrees
-constexpr double same_lean = 0.08;            // of sines; 5 degrees
-constexpr double one_plane = 1 - 1e-6;        // 0.1 degrees
+constexpr double least_lean = 0.17, most_lean = 0.985; // sines of 10 and of 80 degrees
+constexpr double same_lean = 0.08;                     // of sines; 5 degrees
+constexpr double one_plane = 1 - 1e-6;                 // 0.1 degrees
 
-bool leans(double lean) { return std::abs(lean) > square && std::abs(lean) < flat; }
+bool leans(double lean) { return std::abs(lean) > least_lean && std::abs(lean) < most_lean; }
 
 /// A wall across the sheet that leans at one angle against the skin beside its first face.
 struct Wall {
@@ -208,7 +208,7 @@ private:
         const std::vector<int> all =
             smooth_from(wall.face, [&](int next) { return !std::exchange(in[size_t(next)], char(1)); });
         const Turning about = turning_of(all);
-        return about.even && std::abs(about.lean) < square;
+        return about.even && std::abs(about.lean) < least_lean;
     }
 
     /// Where no skin beside a wall is plane its own faces say about which axis it is a cone.

@@ -7,9 +7,9 @@
 namespace spia {
 namespace {
 
-constexpr double least_facing = 0.72; // 44 degrees: not chamfers
-constexpr double steepest = 0.5;      // 60 degrees: a countersink, if it is askew all over
-constexpr double parallel = 0.94;     // 20 degrees: chords of one bend on both sides are askew by less
+constexpr double least_facing = 0.72;    // 44 degrees: not chamfers
+constexpr double steepest = 0.5;         // 60 degrees: a countersink, if it is askew all over
+constexpr double chords_parallel = 0.94; // 20 degrees: chords of one bend on both sides are askew by less
 // of the thickness: between the deepest marks of both sides 0.6
 constexpr double least_distance = 0.55, most_distance = 1.7;
 
@@ -53,7 +53,8 @@ std::vector<double> sloped_shares(const SurfacePieces& pieces, const std::vector
 {
     std::vector<double> share(size_t(pieces.count()), 0);
     for (const Opposite& at : places)
-        if (at.hit >= 0 && at.facing > least && at.facing < parallel && at.distance < most_distance * thickness) {
+        if (at.hit >= 0 && at.facing > least && at.facing < chords_parallel &&
+            at.distance < most_distance * thickness) {
             const auto p = size_t(pieces.piece[size_t(at.face)]);
             share[p] += at.area / pieces.area[p];
         }
@@ -72,7 +73,7 @@ std::vector<char> rounded_into_walls(const SurfacePieces& pieces, const std::vec
         const auto p = size_t(pieces.piece[size_t(at.face)]);
         const bool far = at.hit < 0 || at.distance > most_distance * thickness;
         along_sheet[p] += far ? at.area : 0;
-        askew[p] += far || at.facing < parallel ? at.area : 0;
+        askew[p] += far || at.facing < chords_parallel ? at.area : 0;
         little[p] += far || at.facing < turned ? at.area : 0;
     }
     for (const PieceContact& c : pieces.contact)
