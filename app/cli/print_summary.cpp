@@ -115,6 +115,9 @@ void print_summary(const Session& session)
             patches->layout.edges > 0
                 ? fmt::format(", patches end on {}", counted(patches->layout.edges, "sharp edge", "sharp edges"))
                 : "");
+    if (const auto& source = session.surface->source; source && source->mesh.vertices() > session.part->mesh.vertices())
+        say("          of the smooth sheet through the vertices of the mesh, whose facets are up to {:.3g} mm off it\n",
+            source->chord);
     if (patches && patches->joins && patches->joins->places > 0) {
         constexpr double degree = std::numbers::pi / 180;
         const JoinsReport& joins = *patches->joins;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
@@ -108,6 +109,28 @@ int vertex_in_mesh(const PartFile& part, int in_file)
     return copies.front();
 }
 
+/// The sheet that the facets of the mesh stand for. Its edges are those on which patches end.
+SmoothMesh smooth_source(const PartFile& part, const LayoutOptions& layout, double tolerance)
+{
+    SmoothMeshOptions options;
+    constexpr double share = 0.1; // of the tolerance, which is of the smooth surface
+    options.chord = share * tolerance;
+    options.crease = std::min(options.crease, layout.edge_deg * std::numbers::pi / 180);
+    std::vector<Eigen::Matrix3f> normal = part.corner_normal;
+    if (part.cad && !part.cad->surface.empty() && !normal.empty()) { // exact ones for planes and cylinders
+        const Eigen::Matrix3Xd own = area_vectors(part.mesh);
+        for (int f = 0; f < part.mesh.triangles(); ++f) {
+            const StatedSurface& surface =
+                part.cad->surface[size_t(part.cad->face[size_t(part.source_face[size_t(f)])])];
+            for (int k = 0; k < 3 && surface.kind != StatedSurface::Kind::other; ++k)
+                normal[size_t(f)].col(k) =
+                    normal_at(surface, part.mesh.position.col(part.mesh.triangle(k, f)), own.col(f).normalized())
+                        .cast<float>();
+        }
+    }
+    return smooth_mesh(part.mesh, options, normal);
+}
+
 /// Patches around the holes take the place of grid, lift and fit.
 SurfaceStage several_patches(const Session& session, const Progress& progress)
 {
@@ -128,9 +151,15 @@ SurfaceStage several_patches(const Session& session, const Progress& progress)
     options.degree = session.options.interpolate.degree_u;
     options.max_control_points = session.options.max_control_points;
     options.smooth_joins = layout.smooth_joins;
-    auto fitted = std::make_shared<PatchesFit>(
-        blank_patches(part.mesh, session.blank->blank, layout, options, progress.part(0, 0.95)));
     SurfaceStage stage;
+    stage.source = std::make_shared<SmoothMesh>(smooth_source(part, layout, options.tolerance));
+    const Blank blank{stage.source->at_vertices(part.mesh, session.blank->blank.position)};
+    auto fitted =
+        std::make_shared<PatchesFit>(blank_patches(stage.source->mesh, blank, layout, options, progress.part(0, 0.95)));
+    fitted->at_vertex.conservativeResize(part.mesh.vertices());
+    for (std::vector<MeshPoint>& places : fitted->place)
+        for (MeshPoint& place : places)
+            place = stage.source->in_facets(place);
     stage.deviation.surface_to_mesh = fitted->surface_to_mesh;
     stage.deviation.mesh_to_surface = fitted->mesh_to_surface;
     stage.deviation.at_vertex = fitted->at_vertex;

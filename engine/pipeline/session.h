@@ -12,6 +12,7 @@
 #include "engine/forming/flatten.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/limits/limits.h"
+#include "engine/mesh/smooth_mesh.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/fit.h"
@@ -82,6 +83,9 @@ std::string_view name(const std::optional<BlankOfSteps>& steps);
 struct SurfaceStage {
     InterpolateResult result;                  ///< empty where there are patches
     std::shared_ptr<const PatchesFit> patches; ///< of a layout; null: one patch
+    /// What patches were fitted to and are judged by: the smooth surface that the part's mesh stands
+    /// for. Null: the facets of the mesh.
+    std::shared_ptr<const SmoothMesh> source;
     Deviation deviation;
     std::optional<FitReport> fit; ///< where a tolerance was given
     TrimResult trim;              ///< by the holes of the part; empty if they are to be filled

@@ -1,15 +1,19 @@
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <numbers>
+#include <numeric>
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/layout/simplify/simplify_layout.h"
 #include "engine/mesh/topology.h"
+#include "engine/nurbs/evaluate.h"
 #include "engine/pipeline/make_surface.h"
 #include "engine/pipeline/outputs/outputs.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/shortcomings/shortcomings.h"
+#include "tests/support/grid_surface.h"
 
 using testing::AnyOf;
 using testing::HasSubstr;
@@ -65,6 +69,46 @@ TEST(BestSurface, OfARoundBlankHasItsCornersInside)
     EXPECT_EQ(session.surface->patches->patches.patch.size(), 5u);
     for (const PatchCertificate& patch : session.surface->certificate.patch)
         EXPECT_GE(patch.least_scaled, 0.5);
+}
+
+TEST(BestSurface, PatchesAreFittedToTheSheetThatFacetsStandFor)
+{
+    // A quarter pipe with a window, in chords that miss it by 0.5 mm.
+    constexpr double radius = 100;
+    const TriMesh pipe = shapes::grid_surface({8, 10}, [](double u, double v) {
+        const double turn = u * std::numbers::pi / 2;
+        return Eigen::Vector3d(radius * std::sin(turn), 160 * v, radius * std::cos(turn));
+    });
+    Session session = sample("fender.obj");
+    PartFile part;
+    part.mesh = shapes::without_faces(pipe, [](const Eigen::Vector3d& middle) {
+        return std::abs(middle.x() - middle.z()) < 30 && std::abs(middle.y() - 80) < 30;
+    });
+    part.source_vertex.resize(size_t(part.mesh.vertices()));
+    part.source_face.resize(size_t(part.mesh.triangles()));
+    std::iota(part.source_vertex.begin(), part.source_vertex.end(), 0);
+    std::iota(part.source_face.begin(), part.source_face.end(), 0);
+    session.part = std::make_shared<PartFile>(part);
+    session.options.best_surface = false;
+    session.options.patches.emplace();
+    session.options.tolerance = 0.1;
+    session = run_stage(Stage::solve, std::move(session));
+    make_surface(session, {});
+    const SurfaceStage& surface = *session.surface;
+    ASSERT_TRUE(surface.patches && surface.fit->reached);
+    EXPECT_NEAR(surface.source->chord, radius * (1 - std::cos(std::numbers::pi / 32)), 0.05);
+    double farthest = 0;
+    for (const NurbsSurface& patch : surface.patches->patches.patch)
+        for (int j = 0; j <= 40; ++j)
+            for (int i = 0; i <= 40; ++i) {
+                const Eigen::Vector3d at = evaluate(patch, i / 40., j / 40.).position;
+                farthest = std::max(farthest, std::abs(std::hypot(at.x(), at.z()) - radius));
+            }
+    EXPECT_LT(farthest, 0.1 + 0.02); // the cubic through the vertices is off by a little, too
+    EXPECT_EQ(surface.deviation.at_vertex.size(), part.mesh.vertices());
+    for (const auto& places : surface.patches->place)
+        for (const MeshPoint& place : places)
+            ASSERT_LT(place.face, part.mesh.triangles());
 }
 
 TEST(BestSurface, ThatNoWayIsGoodIsSaid)
