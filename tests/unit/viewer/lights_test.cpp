@@ -261,15 +261,28 @@ TEST_F(Lights, ASurfaceThatFollowsTheFacetsIsAmber)
     const int count = shared_controls(fitted_patches(*document.session.surface)).count;
     ASSERT_LE(count, document.session.part->mesh.vertices());
     EXPECT_TRUE(of(ChainStep::surface).empty()) << all();
-    Document coarse = document; // the same surface of a part with fewer vertices
-    auto part = std::make_shared<PartFile>(*document.session.part);
-    part->mesh.position.conservativeResize(3, count - 1);
-    coarse.session.part = part;
-    const auto doubts = find_doubts(coarse);
-    EXPECT_TRUE(std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& doubt) {
-        return doubt.text.find(fmt::format("has {} control points, more than the part has vertices ({})", count,
-                                           count - 1)) != std::string::npos;
-    }));
+    // The same with 600 control points, of a part with one vertex more and one less; some hundred are
+    // few whatever the mesh.
+    Document other = document;
+    const auto is_amber = [&](int control_points, int vertices) {
+        auto surface = std::make_shared<SurfaceStage>(*document.session.surface);
+        surface->result.surface.count_u = control_points;
+        surface->result.surface.count_v = 1;
+        surface->result.surface.control = Eigen::Matrix3Xd::Zero(3, control_points);
+        surface->result.surface.weight = Eigen::VectorXd::Ones(control_points);
+        other.session.surface = surface;
+        auto part = std::make_shared<PartFile>(*document.session.part);
+        part->mesh.position.conservativeResize(3, vertices);
+        other.session.part = part;
+        const auto doubts = find_doubts(other);
+        return std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& doubt) {
+            return doubt.text.find(fmt::format("has {} control points, more than the part has vertices ({})",
+                                               control_points, vertices)) != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(is_amber(600, 599));
+    EXPECT_FALSE(is_amber(600, 601));
+    EXPECT_FALSE(is_amber(80, 66));
 }
 
 TEST_F(Lights, PatchesThatKinkWhereThePartDoesNotAreAmber)
