@@ -14,6 +14,7 @@ check "$out/dome.html" "$out/dome.json" mm "NURBS surface with its control net"
 run 0 "^wrote     .*inch.html" "$parts/dome.obj" --report "$out/inch.html" --json "$out/inch.json" --export-unit inch
 check "$out/inch.html" "$out/inch.json" inch "Lengths in inch"
 grep -q "5 patches, because one patch over the whole blank is not good enough: " "$out/inch.html" || fail "what was chosen is not told"
+grep -q "whose facets are up to 0.00589 in off it" "$out/inch.html" || fail "what deviations are measured from is not told"
 # A flat U, whose one patch cuts its corners: the report says so, also where the run does not count as a success.
 awk 'BEGIN { for (j = 0; j <= 4; ++j) for (i = 0; i <= 6; ++i) print "v", 10 * i, 10 * j, 0
              for (j = 0; j < 4; ++j) for (i = 1; i <= 6; ++i) if (j < 1 || i < 3 || i > 4) print "f", 7 * j + i, 7 * j + i + 1, 7 * j + i + 8, 7 * j + i + 7 }' > "$out/u.obj"
