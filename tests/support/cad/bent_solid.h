@@ -138,7 +138,7 @@ const char* extension(CadForm form); ///< ".step"
 void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form = CadForm::step);
 
 /// Whether IGES files written from now on have the borders of surfaces in their parameters as well,
-/// not in space alone. Writing a STEP file may change it.
+/// not in space alone.
 void write_iges_parameters(bool as_well);
 
 } // namespace spia::shapes

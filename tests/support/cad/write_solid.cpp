@@ -5,6 +5,7 @@
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StlAPI_Writer.hxx>
 #include <stdexcept>
@@ -31,10 +32,23 @@ const char* extension(CadForm form)
     return ".step";
 }
 
-void write_iges_parameters(bool as_well)
+namespace {
+bool iges_parameters = true;
+}
+
+void write_iges_parameters(bool as_well) { iges_parameters = as_well; }
+
+/// OpenCASCADE keeps what the last writer of the process, which may have been the program's, has set.
+static void set_all()
 {
     IGESControl_Controller::Init();
-    Interface_Static::SetIVal("write.surfacecurve.mode", as_well ? 1 : 0);
+    STEPControl_Controller::Init();
+    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+    Interface_Static::SetCVal("write.step.unit", "MM");
+    Interface_Static::SetCVal("write.step.schema", "AP214IS");
+    Interface_Static::SetIVal("write.step.assembly", 0);
+    Interface_Static::SetIVal("write.surfacecurve.mode", iges_parameters ? 1 : 0);
+    Interface_Static::SetIVal("write.precision.mode", 0);
 }
 
 void write_solid(const std::filesystem::path& file, const TopoDS_Shape& shape, CadForm form)
@@ -48,8 +62,8 @@ void write_solid(const std::filesystem::path& file, const TopoDS_Shape& shape, C
         write_stl(file, shape, 0.05, 0.2);
         return;
     }
+    set_all();
     if (form == CadForm::iges) {
-        IGESControl_Controller::Init();
         IGESControl_Writer writer("MM", 0);
         if (!writer.AddShape(shape) || !writer.Write(file.c_str()))
             throw std::runtime_error("not written: " + file.string());
