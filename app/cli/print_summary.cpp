@@ -116,8 +116,9 @@ void print_summary(const Session& session)
                 ? fmt::format(", patches end on {}", counted(patches->layout.edges, "sharp edge", "sharp edges"))
                 : "");
     if (const auto& source = session.surface->source; source && source->mesh.vertices() > session.part->mesh.vertices())
-        say("          of the smooth sheet through the vertices of the mesh, whose facets are up to {:.3g} mm off it\n",
-            source->chord);
+        say("          of the smooth sheet through the vertices of the mesh, whose facets are up to {:.3g} mm off it{}\n",
+            source->chord,
+            source->left > source->asked ? fmt::format(" and which is known within {:.2g} mm only", source->left) : "");
     if (patches && patches->joins && patches->joins->places > 0) {
         constexpr double degree = std::numbers::pi / 180;
         const JoinsReport& joins = *patches->joins;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
 #include "engine/coons/boundary.h"
 
@@ -22,15 +21,6 @@ std::vector<int> faces_along(const FilledMesh& filled)
             if (next[size_t(triangle(k, f))] == triangle((k + 1) % 3, f))
                 face[size_t(triangle(k, f))] = f;
     return face;
-}
-
-int corner_of(const Eigen::Matrix3Xi& triangle, int face, int vertex)
-{
-    for (int k = 0; k < 3; ++k)
-        if (triangle(k, face) == vertex)
-            return k;
-    assert(false && "the face does not have this vertex");
-    return 0;
 }
 
 Eigen::Vector2d position(const SidePoint& point, const Eigen::Matrix2Xd& plane)
@@ -182,8 +172,8 @@ void place_border(const FilledMesh& filled, const BlankBoundary& boundary, const
             const SidePoint on_side = point_on_side(side, chord, parameters[size_t(k)][i]);
             MeshPoint& here = place[size_t(node)];
             here = {face[size_t(on_side.a)], Eigen::Vector3d::Zero(), 0};
-            here.barycentric[corner_of(filled.mesh.triangle, here.face, on_side.a)] = 1 - on_side.weight;
-            here.barycentric[corner_of(filled.mesh.triangle, here.face, on_side.b)] = on_side.weight;
+            here.barycentric[filled.mesh.corner_of(here.face, on_side.a)] = 1 - on_side.weight;
+            here.barycentric[filled.mesh.corner_of(here.face, on_side.b)] = on_side.weight;
             grid.position.col(node) << position(on_side, filled.plane), 0;
         }
     }

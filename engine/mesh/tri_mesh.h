@@ -12,6 +12,11 @@ struct TriMesh {
 
     int vertices() const { return int(position.cols()); }
     int triangles() const { return int(triangle.cols()); }
+    /// Which corner of a triangle one of its vertices is.
+    int corner_of(int face, int vertex) const
+    {
+        return triangle(0, face) == vertex ? 0 : triangle(1, face) == vertex ? 1 : 2;
+    }
 };
 
 } // namespace spia

@@ -6,7 +6,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/mesh/closest_point.h"
-#include "engine/mesh/curved_triangle.h"
+#include "engine/mesh/smooth/curved_triangle.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

@@ -12,7 +12,7 @@
 #include "engine/forming/flatten.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/limits/limits.h"
-#include "engine/mesh/smooth_mesh.h"
+#include "engine/mesh/smooth/smooth_mesh.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/fit.h"

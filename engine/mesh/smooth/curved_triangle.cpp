@@ -1,4 +1,4 @@
-#include "engine/mesh/curved_triangle.h"
+#include "engine/mesh/smooth/curved_triangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,26 +21,35 @@ std::optional<double> longer(double from, double to)
 
 } // namespace
 
-Eigen::Vector3d CurvedTriangle::on_surface(const Eigen::Vector3d& barycentric) const
+Eigen::Vector3d third_of_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& normal)
 {
-    // b_iij, a third of the way from corner i to j, in the tangent plane at i.
-    const auto near = [&](int i, int j) {
-        const Eigen::Vector3d way = corner.col(j) - corner.col(i);
-        return Eigen::Vector3d(corner.col(i) + (way - way.dot(normal.col(i)) * normal.col(i)) / 3);
-    };
+    const Eigen::Vector3d way = to - from;
+    return from + (way - way.dot(normal) * normal) / 3;
+}
+
+Eigen::Vector3d CubicTriangle::at(const Eigen::Vector3d& barycentric) const
+{
     Eigen::Vector3d place = Eigen::Vector3d::Zero(), mean = Eigen::Vector3d::Zero();
     for (int i = 0; i < 3; ++i) {
         const double u = barycentric[i];
         place += u * u * u * corner.col(i);
         for (int j = 0; j < 3; ++j)
             if (i != j) {
-                const Eigen::Vector3d b = near(i, j);
-                place += 3 * u * u * barycentric[j] * b;
-                mean += b / 6;
+                place += 3 * u * u * barycentric[j] * near[size_t(i)].col(j);
+                mean += near[size_t(i)].col(j) / 6;
             }
     }
     const Eigen::Vector3d middle = mean + (mean - corner.rowwise().mean()) / 2;
     return place + 6 * barycentric.prod() * middle;
+}
+
+Eigen::Vector3d CurvedTriangle::on_surface(const Eigen::Vector3d& barycentric) const
+{
+    CubicTriangle cubic{corner, {}};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            cubic.near[size_t(i)].col(j) = third_of_way(corner.col(i), corner.col(j), normal.col(i));
+    return cubic.at(barycentric);
 }
 
 std::optional<Eigen::Matrix<double, 2, 3>> CurvedTriangle::laid() const

@@ -6,20 +6,6 @@
 
 namespace spia {
 
-/// Normals at the corners of each triangle, of the smooth surface that a mesh of elements stands
-/// for. Triangles around a vertex have one normal, the mean weighted with their angles, but
-/// - across an edge that turns by more than `crease`, or that turns while the sheet beside it on
-///   both sides does not: that is an edge of the part;
-/// - where some of the triangles are flat and others are in a bend the flat ones decide: a bend
-///   begins tangentially;
-/// - at the border and at edges, where triangles are on one side only, it is led on from the
-///   vertices inside, as along an arc.
-/// @param crease  radians
-/// @param given   per triangle normals that are known, as those of CAD faces, zero where they are
-///                not; empty: none
-std::vector<Eigen::Matrix3d> smooth_normals(const TriMesh& mesh, double crease,
-                                            const std::vector<Eigen::Matrix3f>& given = {});
-
 struct SmoothMeshOptions {
     double crease = 0.8;   ///< radians, see smooth_normals()
     double chord = 0.01;   ///< mm, by which edges of the result may miss the smooth surface
@@ -29,7 +15,9 @@ struct SmoothMeshOptions {
 /// The smooth surface that a mesh of elements stands for, as a finer mesh.
 struct SmoothMesh {
     TriMesh mesh;                             ///< its first vertices are those of the mesh it comes from
-    double chord = 0;                         ///< mm, by which the edges of the mesh it comes from miss it
+    double chord = 0;                         ///< mm, by which the edges of that one miss the surface
+    double left = 0;                          ///< mm, by which its own still do
+    double asked = 0;                         ///< mm, less than that; where it is not the halvings ran out
     std::vector<int> face;                    ///< per triangle the one it comes from
     std::vector<Eigen::Matrix3d> barycentric; ///< per triangle its corners there
 

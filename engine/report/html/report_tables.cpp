@@ -198,8 +198,11 @@ static std::string surface_rows(const Session& session, const ResultFigures& fig
                                                  in.text(surface.deviation_p95), in.text(surface.deviation_rms)));
     if (const auto& source = session.surface->source)
         rows += row("Measured from", fmt::format("the smooth sheet through the vertices of the mesh, whose facets are "
-                                                 "up to {} off it",
-                                                 in.text(source->chord)));
+                                                 "up to {} off it{}",
+                                                 in.text(source->chord),
+                                                 source->left > source->asked
+                                                     ? " and which is known within " + in.text(source->left) + " only"
+                                                     : ""));
     const Certificate& certificate = surface_certificate(session);
     if (patches)
         rows += row("Fitness for analysis", fitness(certificate, *figures.certificate));

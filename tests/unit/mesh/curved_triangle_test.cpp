@@ -1,4 +1,4 @@
-#include "engine/mesh/curved_triangle.h"
+#include "engine/mesh/smooth/curved_triangle.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

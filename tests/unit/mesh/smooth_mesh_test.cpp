@@ -1,4 +1,4 @@
-#include "engine/mesh/smooth_mesh.h"
+#include "engine/mesh/smooth/smooth_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -152,6 +152,22 @@ TEST(SmoothMesh, LeavesSheetsOfFlatFacesAsTheyAre)
         EXPECT_EQ(smooth.mesh.triangle, mesh->triangle);
         EXPECT_LT(smooth.chord, 1e-9);
     }
+}
+
+TEST(SmoothMesh, SaysWhatIsLeftWhereHalvingsRunOut)
+{
+    const shapes::KnownSheet sheet = shapes::known_sheets()[1];
+    const TriMesh mesh = shapes::mesh_of(sheet, 6);
+    double before = smooth_mesh(mesh).chord;
+    for (const int halvings : {0, 1, 2}) {
+        const SmoothMesh smooth = smooth_mesh(mesh, {.chord = 1e-9, .most_halvings = halvings});
+        EXPECT_GT(smooth.left, smooth.asked);
+        EXPECT_LE(smooth.left, halvings == 0 ? before : before / 2);
+        before = smooth.left;
+    }
+    const SmoothMesh enough = smooth_mesh(mesh, {.chord = before});
+    EXPECT_LE(enough.left, enough.asked);
+    EXPECT_EQ(enough.asked, before);
 }
 
 TEST(SmoothMesh, KeepsEdgesSharperThanTheCrease)
