@@ -115,10 +115,13 @@ void print_summary(const Session& session)
             patches->layout.edges > 0
                 ? fmt::format(", patches end on {}", counted(patches->layout.edges, "sharp edge", "sharp edges"))
                 : "");
-    if (const auto& source = session.surface->source; source && source->mesh.vertices() > session.part->mesh.vertices())
+    if (const auto& source = session.surface->source;
+        source && source->sheet.mesh.triangles() > source->sheet.face.back() + 1)
         say("          of the smooth sheet through the vertices of the mesh, whose facets are up to {:.3g} mm off it{}\n",
-            source->chord,
-            source->left > source->asked ? fmt::format(" and which is known within {:.2g} mm only", source->left) : "");
+            source->facets_off,
+            source->sheet.left > source->sheet.asked
+                ? fmt::format(" and which is known within {:.2g} mm only", source->sheet.left)
+                : "");
     if (patches && patches->joins && patches->joins->places > 0) {
         constexpr double degree = std::numbers::pi / 180;
         const JoinsReport& joins = *patches->joins;

@@ -112,12 +112,13 @@ inline constexpr Option patches{
     .name = "patches",
     .value = "best|one|auto|FILE",
     .choices = layouts,
-    .help = "best: one patch if it is within the tolerance, by default 1/1000 of the part's diagonal, with no fold and "
-            "no more control points than the part has vertices, else several. one: over the blank with its holes "
-            "filled, without a tolerance through the grid; also where an option of one patch is given. auto: "
-            "four-sided patches around the holes and along sharp edges, which share their sides. FILE: {\"cuts\": "
-            "[[12, 40], ...], \"corners\": [...], \"edge_deg\": 45, \"smooth_joins\": true}, vertices of the part's "
-            "file",
+    .help =
+        "best: one patch if it is within the tolerance, by default 1/1000 of the part's diagonal, with no fold and "
+        "no more control points than the part has vertices (552 in any case), else several. one: over the blank with its holes "
+        "filled, without a tolerance through the grid; also where an option of one patch is given. auto: "
+        "four-sided patches around the holes and along sharp edges, which share their sides. FILE: {\"cuts\": "
+        "[[12, 40], ...], \"corners\": [...], \"edge_deg\": 45, \"smooth_joins\": true}, vertices of the part's "
+        "file",
     .label = "Made of",
     .place = "the step NURBS surface"};
 inline constexpr Option patch_edges{

@@ -17,7 +17,7 @@
 namespace spia {
 namespace {
 
-/// The part as it was read, and the faces that fill holes of the remeshed one.
+/// A part as it was read, and the faces that fill holes of the remeshed one.
 TriMesh with_holes_filled(const TriMesh& original, const TriMesh& filled, int part_triangles)
 {
     const Eigen::Index faces = filled.triangles() - part_triangles;
@@ -37,7 +37,8 @@ struct OnePatch {
 
 /// The surface within the tolerance, its points taken from the grid's map of the blank wherever
 /// they are needed.
-FitResult fit_within_tolerance(const Session& session, const OnePatch& asked, const Progress& progress)
+FitResult fit_within_tolerance(const Session& session, const SurfaceSource& source, const OnePatch& asked,
+                               const Progress& progress)
 {
     const SessionOptions& options = session.options;
     const FilledMesh& filled = *session.grid->result.filled;
@@ -48,55 +49,96 @@ FitResult fit_within_tolerance(const Session& session, const OnePatch& asked, co
     fitting.ends = options.interpolate.ends;
     fitting.parameters = options.fit_parameters;
     fitting.max_control_points = asked.max_control_points;
-    fitting.part_faces = filled.part_triangles;
-    fitting.file_number = session.part->source_vertex;
+    fitting.part_faces = source.part_faces;
+    const std::vector<int> nearest = nearest_vertices(source.sheet, filled.mesh);
+    const std::vector<int>& in_file = session.part->source_vertex;
+    for (const int v : nearest) // of fill nothing is told
+        fitting.file_number.push_back(v < int(in_file.size()) ? in_file[size_t(v)] : -1);
     const BlankChart chart(session.grid->result, session.grid->boundary);
     double at = 0; // how far the fit is, which asks for points now and then
     const Progress noted([&](double fraction, std::string_view step) { progress.checkpoint(at = fraction, step); });
     const Progress while_asked([&](double, std::string_view step) { progress.checkpoint(at, step); });
-    FitSource source;
-    source.at = [&](const std::vector<double>& u, const std::vector<double>& v) {
-        return lift(chart.refined(u, v, while_asked)).lifted.position;
+    FitSource points;
+    points.at = [&](const std::vector<double>& u, const std::vector<double>& v) {
+        const std::vector<MeshPoint> place = lift(chart.refined(u, v, while_asked)).place;
+        Eigen::Matrix3Xd at_places(3, Eigen::Index(place.size()));
+        for (size_t n = 0; n < place.size(); ++n)
+            at_places.col(Eigen::Index(n)) = source.sheet.at(place[n]);
+        return at_places;
     };
-    return fit(source, filled.mesh, fitting, noted);
+    FitResult result = fit(points, source.sheet.mesh, fitting, noted);
+    for (int* vertex : {&result.report.shortfall.a, &result.report.shortfall.b})
+        if (*vertex >= 0)
+            *vertex = nearest[size_t(*vertex)];
+    result.deviation.at_vertex.conservativeResize(filled.mesh.vertices());
+    return result;
+}
+
+/// Within the tolerance of the sheet that the facets stand for.
+void fit_one_patch(SurfaceStage& stage, const Session& session, const OnePatch& asked, const Progress& progress)
+{
+    const PartFile& part = *session.part;
+    const double edge_deg = LayoutOptions{}.edge_deg;
+    SurfaceSource source = surface_source(part, *session.grid->result.filled, *asked.tolerance, edge_deg);
+    FitResult fitted = fit_within_tolerance(session, source, asked, progress.part(0, 0.8));
+    stage.result.surface = std::move(fitted.surface);
+    stage.result.u = std::move(fitted.u);
+    stage.result.v = std::move(fitted.v);
+    stage.deviation = std::move(fitted.deviation);
+    stage.fit = std::move(fitted.report);
+    if (part.remeshed && !part.cad) { // what counts is the part that was given; only at_vertex is of
+                                      // the mesh that is shown
+        PartFile given;
+        given.mesh = *part.remeshed->original;
+        const SurfaceSource whole = surface_source(given, *asked.tolerance, edge_deg);
+        DeviationOptions options;
+        options.part_faces = whole.part_faces;
+        options.tolerance = *asked.tolerance;
+        Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
+        stage.deviation =
+            deviation(stage.result.surface, with_holes_filled(whole.sheet.mesh, source.sheet.mesh, source.part_faces),
+                      options, progress.part(0.8, 1));
+        stage.deviation.at_vertex = std::move(at_vertex);
+        source.facets_off = whole.facets_off;
+    }
+    stage.source = std::make_shared<SurfaceSource>(std::move(source));
+}
+
+/// Through the nodes of the grid.
+void interpolate_one_patch(SurfaceStage& stage, const Session& session, const Progress& progress)
+{
+    const auto& remeshed = session.part->remeshed;
+    const FilledMesh& filled = *session.grid->result.filled;
+    DeviationOptions options;
+    options.part_faces = filled.part_triangles;
+    options.tolerance = usual_tolerance;
+    stage.result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
+    options.data_u = stage.result.u;
+    options.data_v = stage.result.v;
+    stage.deviation = deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
+    if (!remeshed)
+        return;
+    // What counts is the part that was given; only at_vertex is of the mesh that is shown.
+    const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
+    options.part_faces = remeshed->original->triangles();
+    Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
+    stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, 1));
+    stage.deviation.at_vertex = std::move(at_vertex);
 }
 
 SurfaceStage one_patch(const Session& session, const OnePatch& asked, const Progress& progress)
 {
-    const auto& remeshed = session.part->remeshed;
-    const FilledMesh& filled = *session.grid->result.filled;
-    constexpr double measured = 0.95; // what follows is the certificate
+    constexpr double made = 0.95; // what follows is the certificate
     SurfaceStage stage;
-    DeviationOptions options;
-    options.part_faces = filled.part_triangles;
-    options.tolerance = asked.tolerance.value_or(usual_tolerance);
-    if (asked.tolerance) {
-        FitResult fitted = fit_within_tolerance(session, asked, progress.part(0, remeshed ? 0.6 : measured));
-        stage.result.surface = std::move(fitted.surface);
-        stage.result.u = std::move(fitted.u);
-        stage.result.v = std::move(fitted.v);
-        stage.deviation = std::move(fitted.deviation);
-        stage.fit = std::move(fitted.report);
-    } else {
-        stage.result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
-        options.data_u = stage.result.u;
-        options.data_v = stage.result.v;
-        stage.deviation =
-            deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : measured));
-    }
-    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is
-                    // shown
-        const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
-        options.part_faces = remeshed->original->triangles();
-        Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
-        stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, measured));
-        stage.deviation.at_vertex = std::move(at_vertex);
-    }
+    if (asked.tolerance)
+        fit_one_patch(stage, session, asked, progress.part(0, made));
+    else
+        interpolate_one_patch(stage, session, progress.part(0, made));
     stage.deviation.beyond.clear(); // needed no longer, and may be long
     if (!session.options.fill_holes)
         stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface, {},
-                                progress.part(measured, measured));
-    stage.certificate = certify(fitted_patches(stage), progress.part(measured, 1));
+                                progress.part(made, made));
+    stage.certificate = certify(fitted_patches(stage), progress.part(made, 1));
     return stage;
 }
 
@@ -107,28 +149,6 @@ int vertex_in_mesh(const PartFile& part, int in_file)
         throw InputError(fmt::format(
             "vertex {} of the cuts is not one of the part; vertices count from 0 in the file's order", in_file));
     return copies.front();
-}
-
-/// The sheet that the facets of the mesh stand for. Its edges are those on which patches end.
-SmoothMesh smooth_source(const PartFile& part, const LayoutOptions& layout, double tolerance)
-{
-    SmoothMeshOptions options;
-    constexpr double share = 0.1; // of the tolerance, which is of the smooth surface
-    options.chord = share * tolerance;
-    options.crease = std::min(options.crease, layout.edge_deg * std::numbers::pi / 180);
-    std::vector<Eigen::Matrix3f> normal = part.corner_normal;
-    if (part.cad && !part.cad->surface.empty() && !normal.empty()) { // exact ones for planes and cylinders
-        const Eigen::Matrix3Xd own = area_vectors(part.mesh);
-        for (int f = 0; f < part.mesh.triangles(); ++f) {
-            const StatedSurface& surface =
-                part.cad->surface[size_t(part.cad->face[size_t(part.source_face[size_t(f)])])];
-            for (int k = 0; k < 3 && surface.kind != StatedSurface::Kind::other; ++k)
-                normal[size_t(f)].col(k) =
-                    normal_at(surface, part.mesh.position.col(part.mesh.triangle(k, f)), own.col(f).normalized())
-                        .cast<float>();
-        }
-    }
-    return smooth_mesh(part.mesh, options, normal);
 }
 
 /// Patches around the holes take the place of grid, lift and fit.
@@ -152,14 +172,15 @@ SurfaceStage several_patches(const Session& session, const Progress& progress)
     options.max_control_points = session.options.max_control_points;
     options.smooth_joins = layout.smooth_joins;
     SurfaceStage stage;
-    stage.source = std::make_shared<SmoothMesh>(smooth_source(part, layout, options.tolerance));
-    const Blank blank{stage.source->at_vertices(part.mesh, session.blank->blank.position)};
+    stage.source = std::make_shared<SurfaceSource>(surface_source(part, options.tolerance, layout.edge_deg));
+    const SmoothMesh& sheet = stage.source->sheet;
+    const Blank blank{sheet.at_vertices(part.mesh, session.blank->blank.position)};
     auto fitted =
-        std::make_shared<PatchesFit>(blank_patches(stage.source->mesh, blank, layout, options, progress.part(0, 0.95)));
+        std::make_shared<PatchesFit>(blank_patches(sheet.mesh, blank, layout, options, progress.part(0, 0.95)));
     fitted->at_vertex.conservativeResize(part.mesh.vertices());
     for (std::vector<MeshPoint>& places : fitted->place)
         for (MeshPoint& place : places)
-            place = stage.source->in_facets(place);
+            place = sheet.in_facets(place);
     stage.deviation.surface_to_mesh = fitted->surface_to_mesh;
     stage.deviation.mesh_to_surface = fitted->mesh_to_surface;
     stage.deviation.at_vertex = fitted->at_vertex;

@@ -12,7 +12,6 @@
 #include "engine/forming/flatten.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/limits/limits.h"
-#include "engine/mesh/smooth/smooth_mesh.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/fit.h"
@@ -21,6 +20,7 @@
 #include "engine/part/part_file.h"
 #include "engine/part/read_options.h"
 #include "engine/pipeline/corner_cut.h"
+#include "engine/pipeline/surface_source.h"
 #include "engine/unfold/plan/bend_table.h"
 #include "engine/unfold/plan/k_factor.h"
 #include "engine/unfold/step/unfold_script.h"
@@ -83,9 +83,9 @@ std::string_view name(const std::optional<BlankOfSteps>& steps);
 struct SurfaceStage {
     InterpolateResult result;                  ///< empty where there are patches
     std::shared_ptr<const PatchesFit> patches; ///< of a layout; null: one patch
-    /// What patches were fitted to and are judged by: the smooth surface that the part's mesh stands
-    /// for. Null: the facets of the mesh.
-    std::shared_ptr<const SmoothMesh> source;
+    /// What it was fitted to and is judged by. Null: it runs through the nodes of the grid and is
+    /// judged by the facets of the mesh.
+    std::shared_ptr<const SurfaceSource> source;
     Deviation deviation;
     std::optional<FitReport> fit; ///< where a tolerance was given
     TrimResult trim;              ///< by the holes of the part; empty if they are to be filled

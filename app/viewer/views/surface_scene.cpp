@@ -100,10 +100,8 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache, double pixels)
         return std::make_shared<MultiPatch>(is_now ? surface_patches(session) : fitted_patches(*made.surface));
     });
     const StageShape& shape = cache.surface.of({session.part, made.grid, net, look, tolerance, lengths}, [&] {
-        if (made.surface->patches) {
-            const TriMesh& source = made.surface->source ? made.surface->source->mesh : session.part->mesh;
-            return surface_shape(*net, {source, source.triangles()}, look, tolerance, lengths);
-        }
+        if (const auto& source = made.surface->source)
+            return surface_shape(*net, {source->sheet.mesh, source->part_faces}, look, tolerance, lengths);
         const FilledMesh& filled = *made.grid->result.filled;
         return surface_shape(*net, {filled.mesh, filled.part_triangles}, look, tolerance, lengths);
     });

@@ -193,6 +193,11 @@ private:
 
 } // namespace
 
+Eigen::Vector3d SmoothMesh::at(const MeshPoint& in_facets) const
+{
+    return over[size_t(in_facets.face)].at(in_facets.barycentric);
+}
+
 MeshPoint SmoothMesh::in_facets(const MeshPoint& place) const
 {
     MeshPoint result = place;
@@ -217,7 +222,7 @@ Eigen::MatrixXd SmoothMesh::at_vertices(const TriMesh& from, const Eigen::Matrix
 
 SmoothMesh smooth_mesh(const TriMesh& mesh, const SmoothMeshOptions& options, const std::vector<Eigen::Matrix3f>& given)
 {
-    const std::vector<CubicTriangle> cubic = cubic_triangles(mesh, smooth_normals(mesh, options.crease, given));
+    std::vector<CubicTriangle> cubic = cubic_triangles(mesh, smooth_normals(mesh, options.crease, given));
     Halving halving(mesh, cubic, options.chord);
     const double chord = halving.farthest();
     for (int k = 0; k < options.most_halvings && halving.halve(); ++k)
@@ -225,6 +230,7 @@ SmoothMesh smooth_mesh(const TriMesh& mesh, const SmoothMeshOptions& options, co
     SmoothMesh result = halving.result();
     result.chord = chord;
     result.asked = options.chord;
+    result.over = std::move(cubic);
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "engine/mesh/locate.h"
+#include "engine/mesh/smooth/curved_triangle.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -21,6 +22,10 @@ struct SmoothMesh {
     std::vector<int> face;                    ///< per triangle the one it comes from
     std::vector<Eigen::Matrix3d> barycentric; ///< per triangle its corners there
 
+    std::vector<CubicTriangle> over; ///< the surface over each triangle of the one it comes from
+
+    /// The place of the surface over one of the mesh that it comes from, mm.
+    Eigen::Vector3d at(const MeshPoint& in_facets) const;
     /// A place of this mesh on the one it comes from.
     MeshPoint in_facets(const MeshPoint& place) const;
     /// Values at the vertices of the mesh it comes from, linear over its triangles, at all vertices.

@@ -197,12 +197,13 @@ static std::string surface_rows(const Session& session, const ResultFigures& fig
     rows += row("Surface deviation", fmt::format("at most {}, 95 % below {}, RMS {}", in.text(surface.deviation_max),
                                                  in.text(surface.deviation_p95), in.text(surface.deviation_rms)));
     if (const auto& source = session.surface->source)
-        rows += row("Measured from", fmt::format("the smooth sheet through the vertices of the mesh, whose facets are "
-                                                 "up to {} off it{}",
-                                                 in.text(source->chord),
-                                                 source->left > source->asked
-                                                     ? " and which is known within " + in.text(source->left) + " only"
-                                                     : ""));
+        rows +=
+            row("Measured from", fmt::format("the smooth sheet through the vertices of the mesh, whose facets are "
+                                             "up to {} off it{}",
+                                             in.text(source->facets_off),
+                                             source->sheet.left > source->sheet.asked
+                                                 ? " and which is known within " + in.text(source->sheet.left) + " only"
+                                                 : ""));
     const Certificate& certificate = surface_certificate(session);
     if (patches)
         rows += row("Fitness for analysis", fitness(certificate, *figures.certificate));

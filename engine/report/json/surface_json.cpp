@@ -135,8 +135,8 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
     json["deviation_rms_mm"] = figures.deviation_rms;
     json["deviation_p95_mm"] = figures.deviation_p95;
     if (stage.source) { // the deviations are from the smooth sheet, which the facets of the mesh miss
-        json["facets_off_sheet_mm"] = stage.source->chord;
-        json["sheet_known_within_mm"] = stage.source->left;
+        json["facets_off_sheet_mm"] = stage.source->facets_off;
+        json["sheet_known_within_mm"] = stage.source->sheet.left;
     }
     json["surface_to_mesh"] = statistics_json(d.surface_to_mesh, with_tolerance);
     json["mesh_to_surface"] = statistics_json(d.mesh_to_surface, with_tolerance);

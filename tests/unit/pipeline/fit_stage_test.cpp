@@ -37,11 +37,11 @@ TEST(FitStage, SurfaceIsWithinTheToleranceAndTheReportSaysSo)
     const SurfaceStage& made = *session.surface;
     ASSERT_TRUE(made.fit.has_value());
     ASSERT_TRUE(made.fit->reached) << made.fit->shortfall.text;
-    const ClosestPointSearch search(session.grid->result.filled->mesh);
+    const ClosestPointSearch search(made.source->sheet.mesh);
     for (int j = 0; j <= 211; ++j)
         for (int i = 0; i <= 211; ++i) {
             const ClosestPoint foot = search.nearest(evaluate(made.result.surface, i / 211., j / 211.).position);
-            if (foot.face < part.triangles()) {
+            if (foot.face < made.source->part_faces) {
                 EXPECT_LE(foot.distance, tolerance);
             }
         }
