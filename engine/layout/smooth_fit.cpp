@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/layout/simplify/simplify_layout.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/nurbs/smooth_joins.h"
 
@@ -15,15 +16,16 @@ constexpr int rounds_before_widening = 3; // then those beside spoilt patches ar
 constexpr double no_worse = 1e-3;         // radians, by which the angle of a join may grow while
                                           // others get smooth
 
-/// Per patch 1 where it is worse than it may be: too far from the part, folded, or with a greater
-/// angle at one of its sides.
+/// Per patch 1 where it is worse than it may be: too far from the part, folded, ill-shaped, or with
+/// a greater angle at one of its sides.
 std::vector<char> spoilt(const PatchesJudgement& before, const Certificate& proved, const PatchesJudgement& after,
                          const Certificate& certificate, double tolerance)
 {
     std::vector<char> result(before.patch_max.size(), 0);
     for (size_t p = 0; p < result.size(); ++p)
         result[p] = !(after.patch_max[p] <= std::max(tolerance, before.patch_max[p])) ||
-                    (certificate.patch[p].refusal && !proved.patch[p].refusal);
+                    (certificate.patch[p].refusal && !proved.patch[p].refusal) ||
+                    certificate.patch[p].least_scaled < std::min(proved.patch[p].least_scaled, well_shaped_jacobian);
     for (size_t i = 0; i < proved.interfaces.size(); ++i) {
         const InterfaceCertificate &was = proved.interfaces[i], &is = certificate.interfaces[i];
         if (!(is.greatest_angle <= was.greatest_angle + no_worse))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <iterator>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/nurbs/basis.h"
@@ -18,6 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double wanted_angle = 1e-4;   // radians: as bad as a move by the tolerance
 constexpr double already_smooth = 1e-9; // radians
+constexpr double nothing = 1e-3;        // of the tolerance, of a move
 constexpr double least_share = 0.01;    // of a step
 constexpr double small_progress = 0.98; // of what is minimised, in one step
 
@@ -40,13 +42,14 @@ struct Place {
     struct Angle {
         double sine = 0, cosine = 1;
     };
-    /// Whether both patches and the join have a direction there.
-    bool defined(const Eigen::Matrix3Xd& control) const
+    /// Whether both patches and the join have a direction there, which moves that are no more than a
+    /// distance do not turn about.
+    bool defined(const Eigen::Matrix3Xd& control, double distance) const
     {
         const Vector3d a = value(derivative[0], control), b = value(derivative[1], control),
                        t = value(derivative[2], control);
         constexpr double least_sine = 1e-6;
-        return a.cross(t).norm() > least_sine * a.norm() * t.norm() &&
+        return std::min(a.norm(), b.norm()) > distance && a.cross(t).norm() > least_sine * a.norm() * t.norm() &&
                t.cross(b).norm() > least_sine * t.norm() * b.norm();
     }
     Angle angle(const Eigen::Matrix3Xd& control) const
@@ -161,7 +164,8 @@ public:
             for (int c = 0; c < int(patches.patch[p].control.cols()); ++c)
                 start_.col(shared_.of(int(p), c)) = patches.patch[p].control.col(c);
         for (std::vector<Place>& places : places_of(patches, shared_)) {
-            std::erase_if(places, [&](const Place& place) { return !place.defined(start_); });
+            std::erase_if(places,
+                          [&](const Place& place) { return !place.defined(start_, nothing * options.tolerance); });
             const bool smooth = std::all_of(places.begin(), places.end(), [&](const Place& place) {
                 const Place::Angle angle = place.angle(start_);
                 return std::atan2(std::abs(angle.sine), angle.cosine) <= options.sharp;
@@ -214,11 +218,14 @@ private:
         return greatest;
     }
 
-    /// Sum of (sine / wanted_angle)^2 and (move / tolerance)^2, the moves counted from the start.
+    /// Sum of (sine / wanted_angle)^2 and (move / tolerance)^2, the moves counted from the start;
+    /// infinite where a place would lose its directions.
     double objective(const Eigen::Matrix3Xd& control) const
     {
         double sum = (control - start_).squaredNorm() / (options_.tolerance * options_.tolerance);
         for (const Place& place : place_) {
+            if (!place.defined(control, nothing * options_.tolerance))
+                return std::numeric_limits<double>::infinity();
             const Place::Angle angle = place.angle(control);
             sum += std::pow(angle.cosine > 0 ? angle.sine / wanted_angle : 1 / wanted_angle, 2);
         }
