@@ -63,6 +63,8 @@ public:
                 {f, {mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f)}, Eigen::Matrix3d::Identity()});
     }
 
+    int triangles() const { return int(piece_.size()); }
+
     /// mm, by how much the edges miss the curved triangles.
     double farthest() const
     {
@@ -225,8 +227,9 @@ SmoothMesh smooth_mesh(const TriMesh& mesh, const SmoothMeshOptions& options, co
     std::vector<CubicTriangle> cubic = cubic_triangles(mesh, smooth_normals(mesh, options.crease, given));
     Halving halving(mesh, cubic, options.chord);
     const double chord = halving.farthest();
-    for (int k = 0; k < options.most_halvings && halving.halve(); ++k)
-        ;
+    for (int k = 0; k < options.most_halvings && 4 * halving.triangles() <= options.most_triangles; ++k)
+        if (!halving.halve())
+            break;
     SmoothMesh result = halving.result();
     result.chord = chord;
     result.asked = options.chord;

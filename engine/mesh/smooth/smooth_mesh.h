@@ -11,6 +11,9 @@ struct SmoothMeshOptions {
     double crease = 0.8;   ///< radians, see smooth_normals()
     double chord = 0.01;   ///< mm, by which edges of the result may miss the smooth surface
     int most_halvings = 4; ///< of an edge
+    /// Where halving all edges once more could make more, it ends: a tenth of a tolerance that no file
+    /// is as good as is not worth minutes.
+    int most_triangles = 500'000;
 };
 
 /// The smooth surface that a mesh of elements stands for, as a finer mesh.

@@ -165,6 +165,10 @@ TEST(SmoothMesh, SaysWhatIsLeftWhereHalvingsRunOut)
         EXPECT_LE(smooth.left, halvings == 0 ? before : before / 2);
         before = smooth.left;
     }
+    const SmoothMesh small = smooth_mesh(mesh, {.chord = 1e-9, .most_triangles = 10 * mesh.triangles()});
+    EXPECT_GT(small.mesh.triangles(), mesh.triangles());
+    EXPECT_LE(small.mesh.triangles(), 4 * mesh.triangles()); // halved once
+    EXPECT_GT(small.left, small.asked);
     const SmoothMesh enough = smooth_mesh(mesh, {.chord = before});
     EXPECT_LE(enough.left, enough.asked);
     EXPECT_EQ(enough.asked, before);
