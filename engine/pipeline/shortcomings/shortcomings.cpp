@@ -195,8 +195,9 @@ std::vector<std::string> shortcomings(const Session& session)
                 fit.tolerance, session.surface->deviation.max()));
     }
     if (session.surface)
-        if (const auto far = far_surface(session))
-            list.push_back(*far);
+        for (const auto& poor : {far_surface(session), heavy_surface(session), kinked_surface(session)})
+            if (poor)
+                list.push_back(*poor);
     const bool by_deformation = session.deformed && session.surface && session.surface->certificate.suited() &&
                                 !session.deformed->certificate.suited();
     if (session.surface && !by_deformation)

@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "engine/core/place_text.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
+#include "engine/nurbs/smooth_joins.h"
 #include "engine/options/surface_options.h"
+#include "engine/pipeline/make_surface.h"
 #include "engine/pipeline/shortcomings/unsuited_surface.h"
 #include "engine/pipeline/usual_tolerance.h"
 
@@ -25,6 +31,18 @@ std::string percent(double share)
     if (share < least)
         return "less than 0.01 %";
     return share > 1 - least ? "more than 99.99 %" : fmt::format("{:.2f} %", 100 * share);
+}
+
+/// Radians, between the normals of neighbouring triangles.
+double greatest_turn(const TriMesh& part)
+{
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    double greatest = 0;
+    const auto uses = edge_uses(part.triangle);
+    for (size_t i = 1; i < uses.size(); ++i)
+        if (uses[i].same_edge(uses[i - 1]))
+            greatest = std::max(greatest, angle_between(normal.col(uses[i - 1].face), normal.col(uses[i].face)));
+    return greatest;
 }
 
 } // namespace
@@ -63,6 +81,43 @@ std::optional<std::string> folded_surface(const Session& session)
                               mention(option::patches, "one"))
                 : fmt::format("; choose corners at sharp corners of the blank ({}), more cells ({}), or patches ({})",
                               mention(option::corners), mention(option::grid), mention(option::patches, "auto")));
+}
+
+std::optional<std::string> heavy_surface(const Session& session)
+{
+    const SurfaceStage& surface = *session.surface;
+    if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's choice
+        return std::nullopt;
+    const int count = shared_controls(fitted_patches(surface)).count;
+    if (count <= enough_control_points(session.part->mesh))
+        return std::nullopt;
+    return fmt::format("the surface has {} control points, more than the part has vertices ({}), which is much for "
+                       "analysis: allow a larger tolerance ({})",
+                       count, session.part->mesh.vertices(), mention(option::tolerance));
+}
+
+std::optional<Kink> greatest_kink(const Session& session)
+{
+    Kink kink;
+    for (const InterfaceCertificate& joint : session.surface->certificate.interfaces)
+        if (joint.greatest_angle > kink.angle)
+            kink = {joint.greatest_angle, 0, size_t(std::min(joint.joint.first.patch, joint.joint.second.patch))};
+    if (kink.angle <= SmoothJoinsOptions{}.sharp)
+        return std::nullopt;
+    kink.turn = greatest_turn(session.part->mesh);
+    return kink.angle > kink.turn ? std::optional(kink) : std::nullopt;
+}
+
+std::optional<std::string> kinked_surface(const Session& session)
+{
+    const auto kink = greatest_kink(session);
+    if (!kink)
+        return std::nullopt;
+    const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
+    return fmt::format("patches join with a kink of up to {:.3g} degrees (patch {}), while the part turns by at most "
+                       "{:.2g} degrees from triangle to triangle: cut elsewhere ({}), or take one patch ({})",
+                       degrees(kink->angle), kink->patch + 1, degrees(kink->turn), mention(option::patches, "FILE"),
+                       mention(option::patches, "one"));
 }
 
 } // namespace spia

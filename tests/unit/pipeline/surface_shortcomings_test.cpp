@@ -1,11 +1,14 @@
 #include "engine/pipeline/shortcomings/surface_shortcomings.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "engine/forming/material/material_library.h"
 #include "engine/options/surface_options.h"
+#include "engine/pipeline/make_surface.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/pipeline/usual_tolerance.h"
@@ -105,6 +108,52 @@ TEST(SurfaceShortcomings, AFoldIsSaidButNotACornerThatASmoothOutlineLacks)
     EXPECT_THAT(*folded_surface(session), HasSubstr("0.20 %"));
     session.options.patches = LayoutOptions{};
     EXPECT_THAT(*folded_surface(session), HasSubstr(mention(option::patches, "FILE")));
+}
+
+TEST(SurfaceShortcomings, ManyControlPointsAreSaidOfAFitAlone)
+{
+    Session session = finished(shapes::plate(), 0.5);
+    EXPECT_FALSE(heavy_surface(session));
+    const auto with = [&](int count) {
+        NurbsSurface& surface = changed(session).result.surface;
+        surface.count_u = count;
+        surface.count_v = 1;
+        surface.control = Eigen::Matrix3Xd::Zero(3, count);
+        surface.weight = Eigen::VectorXd::Ones(count);
+    };
+    const int enough = enough_control_points(session.part->mesh);
+    with(enough);
+    EXPECT_FALSE(heavy_surface(session));
+    with(enough + 1);
+    ASSERT_TRUE(heavy_surface(session));
+    EXPECT_THAT(*heavy_surface(session), HasSubstr(fmt::format("has {} control points", enough + 1)));
+    EXPECT_THAT(shortcomings(session), testing::Contains(*heavy_surface(session)));
+    changed(session).fit.reset(); // through the nodes of a grid that was asked for
+    EXPECT_FALSE(heavy_surface(session));
+}
+
+TEST(SurfaceShortcomings, KinksOfPatchesAreSaidWhereThePartHasNoneAsGreat)
+{
+    Session session = finished(shapes::plate()); // flat
+    EXPECT_FALSE(kinked_surface(session));
+    InterfaceCertificate joint;
+    joint.joint.first.patch = 4;
+    joint.joint.second.patch = 2;
+    for (const double degrees : {9., 11.}) { // those of less are smoothed
+        joint.greatest_angle = degrees * std::numbers::pi / 180;
+        changed(session).certificate.interfaces = {joint};
+        EXPECT_EQ(kinked_surface(session).has_value(), degrees > 10);
+    }
+    EXPECT_THAT(*kinked_surface(session), HasSubstr("11 degrees (patch 3)"));
+    EXPECT_THAT(shortcomings(session), testing::Contains(*kinked_surface(session)));
+    PartFile folded = *session.part; // by 90 degrees
+    for (int v = 0; v < folded.mesh.vertices(); ++v)
+        if (double& x = folded.mesh.position(0, v); x > 0.5 * shapes::plate().position.row(0).maxCoeff()) {
+            folded.mesh.position(2, v) = x;
+            x = 0.5 * shapes::plate().position.row(0).maxCoeff();
+        }
+    session.part = std::make_shared<PartFile>(folded);
+    EXPECT_FALSE(kinked_surface(session));
 }
 
 } // namespace spia::surface_shortcomings_test

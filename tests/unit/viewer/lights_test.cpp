@@ -251,7 +251,7 @@ TEST_F(Lights, AFoldedSurfaceIsAmberHoweverNearItIs)
     EXPECT_TRUE(says(find_doubts(folded), "2.00 %"));
 }
 
-TEST_F(Lights, ASurfaceThatFollowsTheFacetsIsAmber)
+TEST_F(Lights, ASurfaceOfMoreControlPointsThanVerticesIsAmber)
 {
     open();
     confirm_sheet();

@@ -235,54 +235,28 @@ void judge_distance(const Document& document, LengthUnit lengths, std::vector<Do
          surface.deviation.worse().where});
 }
 
-/// A surface with more control points than the part has vertices is bent along the facets of the
-/// mesh, which no sheet is.
 void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
 {
-    const SurfaceStage& surface = *document.session.surface;
-    if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's
-                                          // choice
-        return;
-    const TriMesh& part = document.session.part->mesh;
-    const int count = surface_figures(surface).control_points, vertices = part.vertices();
-    if (count > enough_control_points(part))
-        doubts.push_back(
-            {ChainStep::surface,
-             fmt::format("The surface has {} control points, more than the part has vertices ({}): it follows the "
-                         "facets of the mesh.",
-                         count, vertices),
-             "A larger tolerance makes it smoother, a finer mesh of the part nearer to the sheet."});
+    if (heavy_surface(document.session))
+        doubts.push_back({ChainStep::surface,
+                          fmt::format("The surface has {} control points, more than the part has vertices ({}), which "
+                                      "is much for analysis.",
+                                      surface_figures(*document.session.surface).control_points,
+                                      document.session.part->mesh.vertices()),
+                          "A larger tolerance needs fewer."});
 }
 
-/// Radians, between the normals of neighbouring triangles.
-double greatest_turn(const TriMesh& part)
-{
-    const Eigen::Matrix3Xd normal = area_vectors(part);
-    const auto uses = edge_uses(part.triangles(), [&](int f, int k) { return part.triangle(k, f); });
-    double greatest = 0;
-    for (size_t i = 1; i < uses.size(); ++i)
-        if (uses[i].same_edge(uses[i - 1])) {
-            const Eigen::Vector3d a = normal.col(uses[i - 1].face), b = normal.col(uses[i].face);
-            greatest = std::max(greatest, std::atan2(a.cross(b).norm(), a.dot(b)));
-        }
-    return greatest;
-}
-
-/// Patches that meet at a greater angle than there is anywhere in the part.
 void judge_joints(const Document& document, std::vector<Doubt>& doubts)
 {
-    const double angle = certificate_figures(document.session.surface->certificate).greatest_angle;
-    if (angle <= SmoothJoinsOptions{}.sharp)
-        return;
-    const double turn = greatest_turn(document.session.part->mesh);
-    if (angle <= turn)
+    const auto kink = greatest_kink(document.session);
+    if (!kink)
         return;
     const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
     doubts.push_back(
         {ChainStep::surface,
-         fmt::format("Patches join with a kink of up to {:.3g} degrees, while the part turns by at most {:.2g} degrees "
-                     "from triangle to triangle.",
-                     degrees(angle), degrees(turn)),
+         fmt::format("Patches join with a kink of up to {:.3g} degrees (patch {}), while the part turns by at most "
+                     "{:.2g} degrees from triangle to triangle.",
+                     degrees(kink->angle), kink->patch + 1, degrees(kink->turn)),
          document.session.options.best_surface
              ? "Choose \"several patches\" and cut elsewhere."
              : "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
@@ -425,7 +399,7 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
         upto.surface = made.surface;
         upto.deformed = made.deformed;
         // said below, with a click
-        for (const auto& text : {far_surface(upto), folded_surface(upto)})
+        for (const auto& text : {far_surface(upto), folded_surface(upto), heavy_surface(upto), kinked_surface(upto)})
             if (text)
                 known.push_back(*text);
         add_shortcomings(ChainStep::surface, upto, document, known, doubts);
