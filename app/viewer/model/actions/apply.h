@@ -10,6 +10,11 @@ namespace spia::viewer {
 /// Names of the changes that are nothing but runs.
 inline constexpr const char* run_names[] = {"Unfold", "Update all"};
 
+/// A running job is in the way of an action.
+struct Busy : InputError {
+    using InputError::InputError;
+};
+
 /// One call per kind of action. What throws is told to the user by apply().
 struct ViewerModel::Apply {
     ViewerModel& model;

@@ -16,7 +16,7 @@ template <class Edit> void ViewerModel::Apply::read_again(std::string name, cons
     if (session.file.empty())
         throw InputError("Open a part first.");
     if (model.busy())
-        throw InputError("Cancel the running job first; then read the part with other options.");
+        throw Busy("Cancel the running job first; then read the part with other options.");
     const bool unsaved = state.document.unsaved;
     change(std::move(name));
     (*this)(DismissMessages{}); // of the part as it was read before
@@ -112,9 +112,9 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     part();
     dismiss_before_run(state.messages);
     if (model.export_job_)
-        throw InputError("Wait for the export to end.");
+        throw Busy("Wait for the export to end.");
     if (model.steps_job_)
-        throw InputError("Wait for the steps to end, or cancel them.");
+        throw Busy("Wait for the steps to end, or cancel them.");
     if (model.chain_job_) { // the newest wish counts
         model.next_ = std::max(model.next_.value_or(action.stage), action.stage);
         model.next_in_one_step_ |= instead;

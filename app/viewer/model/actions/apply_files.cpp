@@ -10,7 +10,7 @@ namespace spia::viewer {
 void ViewerModel::Apply::go(void (History::*way)(Document&))
 {
     if (model.chain_job_ || model.steps_job_)
-        throw InputError("Cancel the running job first; then undo.");
+        throw Busy("Cancel the running job first; then undo.");
     const std::string name = way == &History::undo ? state.history.undo_name() : state.history.redo_name();
     if (name.empty())
         return;
@@ -77,7 +77,7 @@ void ViewerModel::Apply::operator()(const SaveProject& action)
 void ViewerModel::Apply::operator()(const ExportFiles& action)
 {
     if (model.busy())
-        throw InputError("Wait for the running job to end, then export.");
+        throw Busy("Wait for the running job to end, then export.");
     if (!session.blank)
         throw InputError("There is nothing to export yet: unfold the part first.");
     state.exported.reset();
@@ -109,6 +109,8 @@ void ViewerModel::apply(const Action& action)
     const int posted_before = messages_posted_, document_before = state_.history.now();
     try {
         std::visit(Apply{*this}, action);
+    } catch (const Busy& error) {
+        say(Severity::error, error.what(), about_job());
     } catch (const std::exception& error) {
         say(Severity::error, error.what(), about_refusal(state_));
     }

@@ -60,7 +60,7 @@ void ViewerModel::Apply::begin_with(Opening opening)
 void ViewerModel::Apply::require_no_export() const
 {
     if (model.export_job_)
-        throw InputError("Wait for the export to end.");
+        throw Busy("Wait for the export to end.");
 }
 
 void ViewerModel::Apply::operator()(const ListFile& action)

@@ -34,7 +34,7 @@ void ViewerModel::Apply::require_idle() const
 {
     part();
     if (model.busy())
-        throw InputError("Wait for the running job to end, or cancel it.");
+        throw Busy("Wait for the running job to end, or cancel it.");
 }
 
 size_t ViewerModel::Apply::step(int number) const

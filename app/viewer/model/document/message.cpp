@@ -34,6 +34,8 @@ Subject about_refused_part(const ViewerState& state) { return {Subject::Kind::re
 Subject about_change(const ViewerState& state) { return {Subject::Kind::change, {}, state.history.now()}; }
 Subject about_refusal(const ViewerState& state) { return {Subject::Kind::refusal, {}, state.history.now()}; }
 
+Subject about_job() { return {Subject::Kind::busy}; }
+
 bool holds(const Subject& subject, const ViewerState& state)
 {
     switch (subject.kind) {
@@ -47,6 +49,7 @@ bool holds(const Subject& subject, const ViewerState& state)
     case Subject::Kind::refused: return same(subject.object, {state.refused});
     case Subject::Kind::change: return state.history.has(subject.change);
     case Subject::Kind::refusal: return state.history.now() == subject.change;
+    case Subject::Kind::busy: return state.job.running;
     }
     return true;
 }

@@ -24,8 +24,9 @@ struct Subject {
         steps,   ///< likewise, the last run of the steps
         refused, ///< likewise, the part that was refused
         change,  ///< a change of the document: gone once that is undone
-        refusal  ///< an action that was refused, or had nothing to do: gone with the next change,
+        refusal, ///< an action that was refused, or had nothing to do: gone with the next change,
                  ///< whichever
+        busy     ///< an action that a running job was in the way of: gone with the job
     };
     Kind kind = Kind::none;
     std::vector<std::weak_ptr<const void>> object = {};
@@ -40,6 +41,7 @@ Subject about_refused_part(const ViewerState& state);
 /// The change that made the document what it is now.
 Subject about_change(const ViewerState& state);
 Subject about_refusal(const ViewerState& state);
+Subject about_job();
 bool holds(const Subject& subject, const ViewerState& state);
 bool same(const Subject& a, const Subject& b);
 

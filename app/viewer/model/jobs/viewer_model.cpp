@@ -150,11 +150,11 @@ void ViewerModel::run_to(Stage to, const std::string& title)
         return;
     }
     if (export_job_) {
-        say(Severity::hint, "Wait for the export to end.");
+        say(Severity::hint, "Wait for the export to end.", about_job());
         return;
     }
     if (steps_job_) {
-        say(Severity::hint, "Wait for the steps to end, or cancel them.");
+        say(Severity::hint, "Wait for the steps to end, or cancel them.", about_job());
         return;
     }
     if (chain_job_) { // the newest wish counts, from what is there then
