@@ -14,7 +14,7 @@ grep -q '"to_bends": 0.5' "$out/a.json" || fail "the report does not tell the sh
 grep -q '"evened": true' "$out/a.json" || fail "the report does not tell that cells were evened out"
 run 0 "Coons patch, 0 folded" "$parts/dome.obj" --patches one --json "$out/a.json"
 # Nothing asked for: patches where one would be ill-shaped, one where it is good, the plain surface where the grid is given.
-run 0 "5 patches, because one patch over the whole blank is not good enough: the sharpest corner has a scaled Jacobian of 0.00" "$parts/dome.obj"
+run 0 "5 patches, because one patch over the whole blank is not good enough: the sharpest corner has a scaled Jacobian of 0.0" "$parts/dome.obj"
 run 0 "^          one patch over the whole blank" "$parts/fender.obj" --json "$out/a.json"
 run 0 "least scaled Jacobian" "$parts/dome.obj" --grid 20x20 --json "$out/a.json"
 grep -q "\"choice\"" "$out/a.json" && fail "the grid was asked for"

@@ -131,8 +131,15 @@ TEST_F(UnfoldingSteps, WhatCannotBeDoneIsRefusedWithAWayOut)
     EXPECT_THAT(last(Severity::error), HasSubstr("Cancel the running job first"));
     model.apply(RunSteps{});
     EXPECT_THAT(last(Severity::error), HasSubstr("Wait for the running job"));
+    const auto in_the_way = [&] { // what is shown of the running job
+        return std::ranges::count_if(state.messages, [](const Message& message) {
+            return message.shown() && message.subject.kind == Subject::Kind::busy;
+        });
+    };
+    EXPECT_EQ(in_the_way(), 3);
     wait();
     EXPECT_TRUE(all_steps_done(document));
+    EXPECT_EQ(in_the_way(), 0);
 }
 
 } // namespace spia::viewer
