@@ -102,10 +102,11 @@ std::optional<Kink> greatest_kink(const Session& session)
     for (const InterfaceCertificate& joint : session.surface->certificate.interfaces)
         if (joint.greatest_angle > kink.angle)
             kink = {joint.greatest_angle, 0, size_t(std::min(joint.joint.first.patch, joint.joint.second.patch))};
-    if (kink.angle <= SmoothJoinsOptions{}.sharp)
+    const double sharp = SmoothJoinsOptions{}.sharp; // less is no edge: along those of the part, too
+    if (kink.angle <= sharp)
         return std::nullopt;
     kink.turn = greatest_turn(session.part->mesh);
-    return kink.angle > kink.turn ? std::optional(kink) : std::nullopt;
+    return kink.angle > kink.turn + sharp ? std::optional(kink) : std::nullopt;
 }
 
 std::optional<std::string> kinked_surface(const Session& session)

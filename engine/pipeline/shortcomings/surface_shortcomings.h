@@ -21,13 +21,14 @@ std::optional<std::string> folded_surface(const Session& session);
 /// Where a tolerance or patches made it: it has more control points than enough_control_points().
 std::optional<std::string> heavy_surface(const Session& session);
 
-/// A joint of patches at which they meet at a greater angle than the triangles of the part do anywhere.
+/// A joint of patches at which they meet at a greater angle than the triangles of the part do
+/// anywhere, by more than SmoothJoinsOptions::sharp.
 struct Kink {
     double angle = 0; ///< radians, between the normals of the patches
     double turn = 0;  ///< radians, the greatest between neighbouring triangles
     size_t patch = 0; ///< from 0, the one with the lower number
 };
-/// The greatest; nothing where none is greater than joins that are smoothed.
+/// The greatest; nothing where there is none.
 std::optional<Kink> greatest_kink(const Session& session);
 std::optional<std::string> kinked_surface(const Session& session);
 
