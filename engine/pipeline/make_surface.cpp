@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
-#include <numbers>
+#include <tuple>
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
@@ -207,6 +207,14 @@ SurfaceStage several_patches(const Session& session, const Progress& progress)
     return stage;
 }
 
+double least_scaled(const Certificate& certificate)
+{
+    double least = 1;
+    for (const PatchCertificate& patch : certificate.patch)
+        least = std::min(least, patch.least_scaled);
+    return least;
+}
+
 /// What is in the way of a surface, in words; empty: nothing.
 std::string fault(const SurfaceStage& stage)
 {
@@ -218,18 +226,10 @@ std::string fault(const SurfaceStage& stage)
     for (const PatchCertificate& patch : certificate.patch)
         if (patch.refusal)
             return describe(*patch.refusal);
-    for (const PatchCertificate& patch : certificate.patch)
-        if (patch.least_scaled < well_shaped_jacobian)
-            return fmt::format("the sharpest corner has a scaled Jacobian of {:.2g} (1 is best, less than {} is poor)",
-                               patch.least_scaled, well_shaped_jacobian);
+    if (const double least = least_scaled(certificate); least < well_shaped_jacobian)
+        return fmt::format("the sharpest corner has a scaled Jacobian of {:.2g} (1 is best, less than {} is poor)",
+                           least, well_shaped_jacobian);
     return "";
-}
-
-/// Of two with a fault: first whether it is free of folds, then how far it is from the part.
-bool nearer(const SurfaceStage& a, const SurfaceStage& b)
-{
-    const bool a_folds = !a.certificate.suited(), b_folds = !b.certificate.suited();
-    return a_folds != b_folds ? b_folds : a.deviation.max() < b.deviation.max();
 }
 
 /// One patch if nothing is in its way, else several, else the better of both.
@@ -260,7 +260,7 @@ void make_best_surface(Session& session, const Progress& progress)
         if (!one)
             throw InputError(fmt::format("one patch over the whole blank: {}; several patches: {}", against, why_not));
     }
-    if (!several || (one && !why_not.empty() && nearer(*one, *several))) {
+    if (!several || (one && !why_not.empty() && better(*one, *several))) {
         if (FitShortfall& lack = one->fit->shortfall; lack.reason == FitShortfall::Reason::control_points)
             lack.text += fmt::format("; one patch that is asked for ({}) may have more of them than the program takes",
                                      mention(option::patches, "one"));
@@ -281,6 +281,15 @@ void make_best_surface(Session& session, const Progress& progress)
 }
 
 } // namespace
+
+bool better(const SurfaceStage& a, const SurfaceStage& b)
+{
+    const auto beyond = [](const SurfaceStage& s) { return std::max(0., s.deviation.max() - s.fit->tolerance); };
+    const auto rank = [&](const SurfaceStage& s) {
+        return std::tuple(!s.certificate.suited(), beyond(s), -least_scaled(s.certificate));
+    };
+    return rank(a) < rank(b);
+}
 
 int enough_control_points(const TriMesh& part)
 {

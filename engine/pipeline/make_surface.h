@@ -8,9 +8,13 @@ namespace spia {
 /// has several patches: the tolerance that was asked for, else 1/1000 of the part's diagonal.
 double best_tolerance(const Session& session);
 
-/// So many control points a surface may have before it is suspected to follow the facets of the
-/// mesh: as many as the part has vertices, and some hundreds whatever the mesh.
+/// So many control points a surface may have before they are much for analysis: as many as
+/// the part has vertices, and some hundreds whatever the mesh.
 int enough_control_points(const TriMesh& part);
+
+/// Of two surfaces that are not good enough: first whether it is free of folds, then how far it is
+/// beyond its tolerance, then the least scaled Jacobian.
+bool better(const SurfaceStage& a, const SurfaceStage& b);
 
 /// The surface as it was asked for, through the nodes of the grid, within the tolerance, or of a
 /// layout. Where the program chooses (SessionOptions::best_surface), it is one patch if that is

@@ -138,6 +138,30 @@ TEST(BestSurface, OnePatchIsFittedToTheSheetThatFacetsStandFor)
     EXPECT_GT(surface.deviation.surface_to_mesh.excluded, 0); // over the window
 }
 
+TEST(BestSurface, OfTwoWithAFaultTheOneWithoutFoldsThenWithinThenBetterShaped)
+{
+    const auto stage = [](bool folds, double deviation, std::vector<double> shapes) {
+        SurfaceStage made;
+        made.fit.emplace();
+        made.fit->tolerance = 0.2;
+        made.deviation.surface_to_mesh.max = deviation;
+        for (const double shape : shapes) {
+            PatchCertificate& patch = made.certificate.patch.emplace_back();
+            patch.least_scaled = shape;
+            if (folds)
+                patch.refusal.emplace();
+        }
+        return made;
+    };
+    // Each better than all after it; within the tolerance it is of no matter how far within.
+    const std::vector<SurfaceStage> ranked = {stage(false, 0.19, {0.14}), stage(false, 0.1, {0.5, 0.05}),
+                                              stage(false, 0.3, {0.6}),   stage(false, 0.4, {0.9}),
+                                              stage(true, 0.1, {0.15}),   stage(true, 0.4, {0.9})};
+    for (size_t a = 0; a < ranked.size(); ++a)
+        for (size_t b = 0; b < ranked.size(); ++b)
+            EXPECT_EQ(better(ranked[a], ranked[b]), a < b) << a << " " << b;
+}
+
 TEST(BestSurface, ThatNoWayIsGoodIsSaid)
 {
     Session session = sample("dome.obj");
