@@ -195,7 +195,8 @@ std::vector<std::string> shortcomings(const Session& session)
                 fit.tolerance, session.surface->deviation.max()));
     }
     if (session.surface)
-        for (const auto& poor : {far_surface(session), heavy_surface(session), kinked_surface(session)})
+        for (const auto& poor :
+             {far_surface(session), heavy_surface(session), ill_shaped_surface(session), kinked_surface(session)})
             if (poor)
                 list.push_back(*poor);
     const bool by_deformation = session.deformed && session.surface && session.surface->certificate.suited() &&

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/core/place_text.h"
+#include "engine/layout/simplify/simplify_layout.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/vectors.h"
@@ -94,6 +95,21 @@ std::optional<std::string> heavy_surface(const Session& session)
     return fmt::format("the surface has {} control points, more than the part has vertices ({}), which is much for "
                        "analysis: allow a larger tolerance ({})",
                        count, session.part->mesh.vertices(), mention(option::tolerance));
+}
+
+std::optional<std::string> ill_shaped_surface(const Session& session)
+{
+    const Certificate& certificate = session.surface->certificate;
+    if (!session.options.best_surface || certificate.patch.empty())
+        return std::nullopt;
+    const auto poorest = std::ranges::min_element(certificate.patch, {}, &PatchCertificate::least_scaled);
+    if (poorest->least_scaled >= well_shaped_jacobian)
+        return std::nullopt;
+    return fmt::format("the sharpest corner of the surface has a scaled Jacobian of {:.2g} near ({}); 1 is best, less "
+                       "than {} is poor for analysis: choose corners at sharp corners of the blank ({}), or cut "
+                       "elsewhere ({})",
+                       poorest->least_scaled, place_text(poorest->least_scaled_at.position), well_shaped_jacobian,
+                       mention(option::corners), mention(option::patches, "FILE"));
 }
 
 std::optional<Kink> greatest_kink(const Session& session)

@@ -21,6 +21,9 @@ std::optional<std::string> folded_surface(const Session& session);
 /// Where a tolerance or patches made it: it has more control points than enough_control_points().
 std::optional<std::string> heavy_surface(const Session& session);
 
+/// Where the program chose what it is made of: it has a sharper corner than well_shaped_jacobian.
+std::optional<std::string> ill_shaped_surface(const Session& session);
+
 /// A joint of patches at which they meet at a greater angle than the triangles of the part do
 /// anywhere, by more than SmoothJoinsOptions::sharp.
 struct Kink {

@@ -132,6 +132,19 @@ TEST(SurfaceShortcomings, ManyControlPointsAreSaidOfAFitAlone)
     EXPECT_FALSE(heavy_surface(session));
 }
 
+TEST(SurfaceShortcomings, ASharpCornerIsSaidWhereTheProgramChose)
+{
+    Session session = finished(shapes::plate(), 0.5);
+    changed(session).certificate.patch.at(0).least_scaled = 0.19;
+    EXPECT_FALSE(ill_shaped_surface(session)); // one patch that was asked for
+    session.options.best_surface = true;
+    ASSERT_TRUE(ill_shaped_surface(session));
+    EXPECT_THAT(*ill_shaped_surface(session), HasSubstr("scaled Jacobian of 0.19"));
+    EXPECT_THAT(shortcomings(session), testing::Contains(*ill_shaped_surface(session)));
+    changed(session).certificate.patch.at(0).least_scaled = 0.2;
+    EXPECT_FALSE(ill_shaped_surface(session));
+}
+
 TEST(SurfaceShortcomings, KinksOfPatchesAreSaidWhereThePartHasNoneAsGreat)
 {
     Session session = finished(shapes::plate()); // flat
