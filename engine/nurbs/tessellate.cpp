@@ -25,12 +25,18 @@ std::vector<double> sample_parameters(const std::vector<double>& knots, int degr
 
 Tessellation tessellate(const NurbsSurface& surface, int samples_per_span, const Progress& progress)
 {
-    const std::vector<double> u = sample_parameters(surface.knots_u, surface.degree_u, samples_per_span);
-    const std::vector<double> v = sample_parameters(surface.knots_v, surface.degree_v, samples_per_span);
+    return tessellate(surface, {samples_per_span, samples_per_span}, progress);
+}
+
+Tessellation tessellate(const NurbsSurface& surface, const std::array<int, 2>& samples_per_span,
+                        const Progress& progress)
+{
+    const std::vector<double> u = sample_parameters(surface.knots_u, surface.degree_u, samples_per_span[0]);
+    const std::vector<double> v = sample_parameters(surface.knots_v, surface.degree_v, samples_per_span[1]);
     const int columns = int(u.size()) - 1, rows = int(v.size()) - 1;
     if (2.0 * columns * rows > std::numeric_limits<int>::max() / 3)
         throw InputError(fmt::format("{} x {} cells are too many triangles; ask for fewer samples per span than {}",
-                                     columns, rows, samples_per_span));
+                                     columns, rows, std::max(samples_per_span[0], samples_per_span[1])));
 
     Tessellation result;
     const int vertices = (columns + 1) * (rows + 1);

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "engine/core/progress.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/surface.h"
@@ -16,6 +18,10 @@ struct Tessellation {
 /// to a point, one of the two has no area.
 /// @throws InputError  if samples_per_span < 1 or the surface has too many samples to be numbered
 Tessellation tessellate(const NurbsSurface& surface, int samples_per_span = 4, const Progress& progress = {});
+
+/// The same with so many samples along u and along v.
+Tessellation tessellate(const NurbsSurface& surface, const std::array<int, 2>& samples_per_span,
+                        const Progress& progress = {});
 
 /// The distinct knots of one direction with samples_per_span - 1 even steps between every two of
 /// them.

@@ -32,6 +32,31 @@ int samples(const MultiPatch& surface)
     return std::clamp(int(std::sqrt(most_triangles / (2 * cells))), 1, finest);
 }
 
+/// Per span along u and v: no fewer than `fine`, and as many as leave no cell longer than a length.
+/// A span may be as long as the part, and what is hatched over its holes is drawn cell by cell.
+std::array<int, 2> samples(const NurbsSurface& patch, int fine, double length)
+{
+    std::array<double, 2> longest = {0, 0}; // rows of the control net
+    for (int j = 0; j < patch.count_v; ++j) {
+        double row = 0;
+        for (int i = 1; i < patch.count_u; ++i)
+            row += (patch.control.col(patch.index(i, j)) - patch.control.col(patch.index(i - 1, j))).norm();
+        longest[0] = std::max(longest[0], row);
+    }
+    for (int i = 0; i < patch.count_u; ++i) {
+        double row = 0;
+        for (int j = 1; j < patch.count_v; ++j)
+            row += (patch.control.col(patch.index(i, j)) - patch.control.col(patch.index(i, j - 1))).norm();
+        longest[1] = std::max(longest[1], row);
+    }
+    const auto along = [&](double row, const std::vector<double>& knots, int degree) {
+        constexpr double most = 200;
+        const double spans = double(span_borders(knots, degree).size()) - 1;
+        return int(std::clamp(std::ceil(row / (spans * length)), double(fine), most));
+    };
+    return {along(longest[0], patch.knots_u, patch.degree_u), along(longest[1], patch.knots_v, patch.degree_v)};
+}
+
 /// Patches of one colour as one mesh.
 struct Drawn {
     std::vector<Tessellation> patch;
@@ -187,11 +212,13 @@ StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, Surfa
                          LengthUnit lengths)
 {
     const int fine = samples(surface);
+    const double size = (part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff()).norm();
+    constexpr double longest_cell = 1. / 200; // of the size: some pixels
     const std::vector<int> colour =
         look == SurfaceLook::patches ? patch_colours(surface) : std::vector<int>(surface.patch.size(), 0);
     std::array<Drawn, palette::patches.size()> drawn;
     for (size_t p = 0; p < surface.patch.size(); ++p) {
-        Tessellation patch = tessellate(surface.patch[p], fine);
+        Tessellation patch = tessellate(surface.patch[p], samples(surface.patch[p], fine, longest_cell * size));
         Drawn& group = drawn[size_t(colour[p])];
         if (look == SurfaceLook::deviation || look == SurfaceLook::tolerance)
             group.value.push_back(surface_deviation(patch, part));
@@ -199,7 +226,6 @@ StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, Surfa
             group.value.push_back(surface_curvature(surface.patch[p], patch, look == SurfaceLook::gaussian_curvature));
         group.patch.push_back(std::move(patch));
     }
-    const double size = (part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff()).norm();
     StageShape shape;
     for (size_t c = 0; c < drawn.size(); ++c) {
         if (drawn[c].patch.empty())

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -106,6 +107,17 @@ TEST(SurfaceShape, TheMiddleOfThreeBandsIsTheTolerance)
     EXPECT_FLOAT_EQ(scale.least, -0.3f);
     EXPECT_NEAR(shape.layers[0].field->value.minCoeff(), 0.25, 1e-6);
     EXPECT_NEAR(shape.layers[0].field->value.maxCoeff(), 0.25, 1e-6);
+}
+
+TEST(SurfaceShape, HasNoCellsThatHolesCouldNotBeSeenIn)
+{
+    // One span as long as the part, whose hole is hatched cell by cell.
+    const StageShape shape = surface_shape({{cylinder(40)}, {}}, part, SurfaceLook::deviation, 0.1);
+    const SceneMesh& mesh = *shape.layers.front().mesh;
+    float longest = 0;
+    for (Eigen::Index e = 0; e < mesh.edge.cols(); ++e)
+        longest = std::max(longest, (mesh.position.col(mesh.edge(0, e)) - mesh.position.col(mesh.edge(1, e))).norm());
+    EXPECT_LT(longest, 0.01 * std::hypot(120, 80));
 }
 
 TEST(SurfaceShape, HasTheNormalsOfTheSurface)
