@@ -1,7 +1,9 @@
 #include "engine/pipeline/shortcomings/shortcomings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <iterator>
 
 #include "engine/core/place_text.h"
 #include "engine/core/text.h"
@@ -195,10 +197,7 @@ std::vector<std::string> shortcomings(const Session& session)
                 fit.tolerance, session.surface->deviation.max()));
     }
     if (session.surface)
-        for (const auto& poor :
-             {far_surface(session), heavy_surface(session), ill_shaped_surface(session), kinked_surface(session)})
-            if (poor)
-                list.push_back(*poor);
+        std::ranges::move(surface_shortcomings(session), std::back_inserter(list));
     const bool by_deformation = session.deformed && session.surface && session.surface->certificate.suited() &&
                                 !session.deformed->certificate.suited();
     if (session.surface && !by_deformation)

@@ -137,4 +137,14 @@ std::optional<std::string> kinked_surface(const Session& session)
                        mention(option::patches, "one"));
 }
 
+std::vector<std::string> surface_shortcomings(const Session& session)
+{
+    std::vector<std::string> list;
+    for (const auto& poor :
+         {far_surface(session), heavy_surface(session), ill_shaped_surface(session), kinked_surface(session)})
+        if (poor)
+            list.push_back(*poor);
+    return list;
+}
+
 } // namespace spia

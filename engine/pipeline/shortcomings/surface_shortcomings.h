@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/pipeline/session.h"
 
@@ -34,5 +35,8 @@ struct Kink {
 /// The greatest; nothing where there is none.
 std::optional<Kink> greatest_kink(const Session& session);
 std::optional<std::string> kinked_surface(const Session& session);
+
+/// All of these but folds, which a deformation may have made.
+std::vector<std::string> surface_shortcomings(const Session& session);
 
 } // namespace spia

@@ -1,5 +1,6 @@
 #include "app/viewer/model/jobs/viewer_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
@@ -16,8 +17,8 @@ namespace {
 /// What the light of the surface says all the time needs no message.
 bool of_its_surface(const Session& session, const std::string& text)
 {
-    return session.surface && (text == far_surface(session) || text == folded_surface(session) ||
-                               text == heavy_surface(session) || text == kinked_surface(session));
+    return session.surface &&
+           (text == folded_surface(session) || std::ranges::count(surface_shortcomings(session), text) > 0);
 }
 
 /// A grid for one patch that was made on the way to what the program chooses is none that anyone
