@@ -106,10 +106,8 @@ struct Worth {
 Worth worth_of(const PatchesFit& fit, const Progress& progress)
 {
     const Certificate certificate = certify(fit.patches, progress);
-    double least = 1;
-    for (const PatchCertificate& patch : certificate.patch)
-        least = std::min(least, patch.least_scaled);
-    return {certificate.suited(), fit.reached, least, fit.deviation_max(), shared_controls(fit.patches).count};
+    return {certificate.suited(), fit.reached, certificate.poorest().least_scaled, fit.deviation_max(),
+            shared_controls(fit.patches).count};
 }
 
 bool same(const Layout& a, const Layout& b)

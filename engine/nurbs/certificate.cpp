@@ -333,6 +333,11 @@ bool Certificate::suited() const
            std::none_of(patch.begin(), patch.end(), [](const PatchCertificate& c) { return c.refusal.has_value(); });
 }
 
+const PatchCertificate& Certificate::poorest() const
+{
+    return *std::ranges::min_element(patch, {}, &PatchCertificate::least_scaled);
+}
+
 Certificate certify(const MultiPatch& patches, const Progress& progress)
 {
     Certificate result;

@@ -68,6 +68,8 @@ struct Certificate {
                       ///< they are, to the last bit
 
     bool suited() const; ///< watertight, and no patch refused
+    /// The patch with the least scaled Jacobian; there is one at least.
+    const PatchCertificate& poorest() const;
 };
 
 /// Examines every patch. The numerator of S_u x S_v is w A_u x A_v + w_v A x A_u + w_u A_v x A for

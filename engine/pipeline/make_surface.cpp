@@ -74,6 +74,18 @@ FitResult fit_within_tolerance(const Session& session, const SurfaceSource& sour
     return result;
 }
 
+/// Of a remeshed part what counts is the one that was given; only at_vertex is of the mesh that is
+/// shown.
+/// @param shown, part_faces  the remeshed one, whose triangles after the first part_faces fill holes
+void judge_by_given(SurfaceStage& stage, const TriMesh& given, const TriMesh& shown, int part_faces,
+                    DeviationOptions options, const Progress& progress)
+{
+    options.part_faces = given.triangles();
+    Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
+    stage.deviation = deviation(stage.result.surface, with_holes_filled(given, shown, part_faces), options, progress);
+    stage.deviation.at_vertex = std::move(at_vertex);
+}
+
 /// Within the tolerance of the sheet that the facets stand for.
 void fit_one_patch(SurfaceStage& stage, const Session& session, const OnePatch& asked, const Progress& progress)
 {
@@ -86,19 +98,13 @@ void fit_one_patch(SurfaceStage& stage, const Session& session, const OnePatch& 
     stage.result.v = std::move(fitted.v);
     stage.deviation = std::move(fitted.deviation);
     stage.fit = std::move(fitted.report);
-    if (part.remeshed && !part.cad) { // what counts is the part that was given; only at_vertex is of
-                                      // the mesh that is shown
+    if (part.remeshed && !part.cad) {
         PartFile given;
         given.mesh = *part.remeshed->original;
         const SurfaceSource whole = surface_source(given, *asked.tolerance, edge_deg);
         DeviationOptions options;
-        options.part_faces = whole.part_faces;
         options.tolerance = *asked.tolerance;
-        Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
-        stage.deviation =
-            deviation(stage.result.surface, with_holes_filled(whole.sheet.mesh, source.sheet.mesh, source.part_faces),
-                      options, progress.part(0.8, 1));
-        stage.deviation.at_vertex = std::move(at_vertex);
+        judge_by_given(stage, whole.sheet.mesh, source.sheet.mesh, source.part_faces, options, progress.part(0.8, 1));
         source.facets_off = whole.facets_off;
     }
     stage.source = std::make_shared<SurfaceSource>(std::move(source));
@@ -116,14 +122,8 @@ void interpolate_one_patch(SurfaceStage& stage, const Session& session, const Pr
     options.data_u = stage.result.u;
     options.data_v = stage.result.v;
     stage.deviation = deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
-    if (!remeshed)
-        return;
-    // What counts is the part that was given; only at_vertex is of the mesh that is shown.
-    const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
-    options.part_faces = remeshed->original->triangles();
-    Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
-    stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, 1));
-    stage.deviation.at_vertex = std::move(at_vertex);
+    if (remeshed)
+        judge_by_given(stage, *remeshed->original, filled.mesh, filled.part_triangles, options, progress.part(0.6, 1));
 }
 
 SurfaceStage one_patch(const Session& session, const OnePatch& asked, const Progress& progress)
@@ -207,14 +207,6 @@ SurfaceStage several_patches(const Session& session, const Progress& progress)
     return stage;
 }
 
-double least_scaled(const Certificate& certificate)
-{
-    double least = 1;
-    for (const PatchCertificate& patch : certificate.patch)
-        least = std::min(least, patch.least_scaled);
-    return least;
-}
-
 /// What is in the way of a surface, in words; empty: nothing.
 std::string fault(const SurfaceStage& stage)
 {
@@ -226,7 +218,7 @@ std::string fault(const SurfaceStage& stage)
     for (const PatchCertificate& patch : certificate.patch)
         if (patch.refusal)
             return describe(*patch.refusal);
-    if (const double least = least_scaled(certificate); least < well_shaped_jacobian)
+    if (const double least = certificate.poorest().least_scaled; least < well_shaped_jacobian)
         return fmt::format("the sharpest corner has a scaled Jacobian of {:.2g} (1 is best, less than {} is poor)",
                            least, well_shaped_jacobian);
     return "";
@@ -286,7 +278,7 @@ bool better(const SurfaceStage& a, const SurfaceStage& b)
 {
     const auto beyond = [](const SurfaceStage& s) { return std::max(0., s.deviation.max() - s.fit->tolerance); };
     const auto rank = [&](const SurfaceStage& s) {
-        return std::tuple(!s.certificate.suited(), beyond(s), -least_scaled(s.certificate));
+        return std::tuple(!s.certificate.suited(), beyond(s), -s.certificate.poorest().least_scaled);
     };
     return rank(a) < rank(b);
 }

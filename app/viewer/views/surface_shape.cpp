@@ -36,25 +36,24 @@ int samples(const MultiPatch& surface)
 /// A span may be as long as the part, and what is hatched over its holes is drawn cell by cell.
 std::array<int, 2> samples(const NurbsSurface& patch, int fine, double length)
 {
-    std::array<double, 2> longest = {0, 0}; // rows of the control net
-    for (int j = 0; j < patch.count_v; ++j) {
-        double row = 0;
-        for (int i = 1; i < patch.count_u; ++i)
-            row += (patch.control.col(patch.index(i, j)) - patch.control.col(patch.index(i - 1, j))).norm();
-        longest[0] = std::max(longest[0], row);
-    }
-    for (int i = 0; i < patch.count_u; ++i) {
-        double row = 0;
-        for (int j = 1; j < patch.count_v; ++j)
-            row += (patch.control.col(patch.index(i, j)) - patch.control.col(patch.index(i, j - 1))).norm();
-        longest[1] = std::max(longest[1], row);
-    }
-    const auto along = [&](double row, const std::vector<double>& knots, int degree) {
+    const auto longest = [&](int rows, int places, const auto& index) {
+        double result = 0;
+        for (int r = 0; r < rows; ++r) {
+            double row = 0; // of the control net
+            for (int k = 1; k < places; ++k)
+                row += (patch.control.col(index(k, r)) - patch.control.col(index(k - 1, r))).norm();
+            result = std::max(result, row);
+        }
+        return result;
+    };
+    const double along_u = longest(patch.count_v, patch.count_u, [&](int i, int j) { return patch.index(i, j); });
+    const double along_v = longest(patch.count_u, patch.count_v, [&](int j, int i) { return patch.index(i, j); });
+    const auto in_span = [&](double row, const std::vector<double>& knots, int degree) {
         constexpr double most = 200;
         const double spans = double(span_borders(knots, degree).size()) - 1;
         return int(std::clamp(std::ceil(row / (spans * length)), double(fine), most));
     };
-    return {along(longest[0], patch.knots_u, patch.degree_u), along(longest[1], patch.knots_v, patch.degree_v)};
+    return {in_span(along_u, patch.knots_u, patch.degree_u), in_span(along_v, patch.knots_v, patch.degree_v)};
 }
 
 /// Patches of one colour as one mesh.

@@ -102,13 +102,13 @@ std::optional<std::string> ill_shaped_surface(const Session& session)
     const Certificate& certificate = session.surface->certificate;
     if (!session.options.best_surface || certificate.patch.empty())
         return std::nullopt;
-    const auto poorest = std::ranges::min_element(certificate.patch, {}, &PatchCertificate::least_scaled);
-    if (poorest->least_scaled >= well_shaped_jacobian)
+    const PatchCertificate& poorest = certificate.poorest();
+    if (poorest.least_scaled >= well_shaped_jacobian)
         return std::nullopt;
     return fmt::format("the sharpest corner of the surface has a scaled Jacobian of {:.2g} near ({}); 1 is best, less "
                        "than {} is poor for analysis: choose corners at sharp corners of the blank ({}), or cut "
                        "elsewhere ({})",
-                       poorest->least_scaled, place_text(poorest->least_scaled_at.position), well_shaped_jacobian,
+                       poorest.least_scaled, place_text(poorest.least_scaled_at.position), well_shaped_jacobian,
                        mention(option::corners), mention(option::patches, "FILE"));
 }
 

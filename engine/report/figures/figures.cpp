@@ -105,11 +105,8 @@ SurfaceFigures surface_figures(const SurfaceStage& surface)
 CertificateFigures certificate_figures(const Certificate& certificate)
 {
     CertificateFigures figures;
-    for (size_t p = 0; p < certificate.patch.size(); ++p)
-        if (certificate.patch[p].least_scaled < figures.least_scaled) {
-            figures.least_scaled = certificate.patch[p].least_scaled;
-            figures.patch = p;
-        }
+    figures.least_scaled = certificate.poorest().least_scaled;
+    figures.patch = size_t(&certificate.poorest() - certificate.patch.data());
     for (const InterfaceCertificate& joint : certificate.interfaces)
         figures.greatest_angle = std::max(figures.greatest_angle, joint.greatest_angle);
     return figures;

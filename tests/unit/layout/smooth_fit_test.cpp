@@ -4,7 +4,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <random>
 
+#include "engine/layout/simplify/simplify_layout.h"
 #include "engine/nurbs/certificate.h"
 #include "tests/support/joined_patches.h"
 #include "tests/support/shapes.h"
@@ -111,6 +113,32 @@ TEST(SmoothFit, KeepsPatchesThatWouldBeWorse)
     EXPECT_GE(same, fit.joins->kept);
     EXPECT_EQ(judge.judge(fit.patches.patch).max(), after.max());
     require_watertight(fit.patches);
+}
+
+TEST(SmoothFit, MakesNoPatchIllShaped)
+{
+    const Sheet sheet(dome);
+    PatchesFitOptions options;
+    options.tolerance = 0.05;
+    const PatchesFit plain = fit_patches(sheet.part, sheet.blank, make_layout(sheet.part, sheet.blank), options);
+    constexpr double any = 50; // mm
+    std::mt19937 random(7);
+    for (const double most : {1., 2., 4.}) { // mm, by which control points inside are off
+        PatchesFit fit = plain;
+        std::uniform_real_distribution<double> off(-most, most);
+        for (NurbsSurface& patch : fit.patches.patch)
+            for (int j = 1; j < patch.count_v - 1; ++j)
+                for (int i = 1; i < patch.count_u - 1; ++i)
+                    for (int k = 0; k < 3; ++k)
+                        patch.control(k, patch.index(i, j)) += off(random);
+        const Certificate before = certify(fit.patches);
+        const PatchesJudge judge(sheet.part, sheet.blank, fit.layout, any);
+        smooth_fit(fit, judge, judge.judge(fit.patches.patch), any);
+        const Certificate after = certify(fit.patches);
+        for (size_t p = 0; p < before.patch.size(); ++p)
+            EXPECT_GE(after.patch[p].least_scaled, std::min(before.patch[p].least_scaled, well_shaped_jacobian))
+                << "patch " << p << " at " << most;
+    }
 }
 
 } // namespace spia::smooth_fit_test

@@ -235,31 +235,26 @@ void judge_distance(const Document& document, LengthUnit lengths, std::vector<Do
          surface.deviation.worse().where});
 }
 
+/// What the engine says of a surface, with a way out in place of its own.
+Doubt with_way_out(const std::string& said, std::string next)
+{
+    return {ChainStep::surface, sentence(said.substr(0, said.find_last_of(":;"))), std::move(next)};
+}
+
 void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
 {
-    if (heavy_surface(document.session))
-        doubts.push_back({ChainStep::surface,
-                          fmt::format("The surface has {} control points, more than the part has vertices ({}), which "
-                                      "is much for analysis.",
-                                      surface_figures(*document.session.surface).control_points,
-                                      document.session.part->mesh.vertices()),
-                          "A larger tolerance needs fewer."});
+    if (const auto heavy = heavy_surface(document.session))
+        doubts.push_back(with_way_out(*heavy, "A larger tolerance needs fewer."));
 }
 
 void judge_joints(const Document& document, std::vector<Doubt>& doubts)
 {
-    const auto kink = greatest_kink(document.session);
-    if (!kink)
-        return;
-    const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
-    doubts.push_back(
-        {ChainStep::surface,
-         fmt::format("Patches join with a kink of up to {:.3g} degrees (patch {}), while the part turns by at most "
-                     "{:.2g} degrees from triangle to triangle.",
-                     degrees(kink->angle), kink->patch + 1, degrees(kink->turn)),
-         document.session.options.best_surface
-             ? "Choose \"several patches\" and cut elsewhere."
-             : "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
+    if (const auto kinked = kinked_surface(document.session))
+        doubts.push_back(with_way_out(
+            *kinked,
+            document.session.options.best_surface
+                ? "Choose \"several patches\" and cut elsewhere."
+                : "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."));
 }
 
 void judge_folds(const Document& document, std::vector<Doubt>& doubts)
@@ -267,8 +262,7 @@ void judge_folds(const Document& document, std::vector<Doubt>& doubts)
     const auto folded = folded_surface(document.session);
     if (!folded)
         return;
-    // the way out is a click here
-    Doubt doubt{ChainStep::surface, sentence(folded->substr(0, folded->rfind(';')))};
+    Doubt doubt = with_way_out(*folded, "");
     for (const PatchCertificate& patch : surface_certificate(document.session).patch)
         if (patch.refusal && !doubt.place)
             doubt.place = patch.refusal->place.position;
