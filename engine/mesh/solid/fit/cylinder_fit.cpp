@@ -74,11 +74,14 @@ std::optional<FittedCylinder> cylinder_along(const Eigen::Vector3d& axis, const 
 
 std::vector<int> corners(const TriMesh& part, const std::vector<int>& faces)
 {
-    std::set<int> vertices;
+    std::vector<int> vertices;
+    vertices.reserve(3 * faces.size());
     for (const int f : faces)
         for (int k = 0; k < 3; ++k)
-            vertices.insert(part.triangle(k, f));
-    return {vertices.begin(), vertices.end()};
+            vertices.push_back(part.triangle(k, f));
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
 }
 
 std::optional<FittedCylinder> fitted(const FittedCylinder& from, const Eigen::Matrix3Xd& place,

@@ -229,7 +229,8 @@ private:
             if (within <= tight(region.cylinder.radius, sheet_.thickness) && region.cylinder.off <= within &&
                 is_bend(region))
                 best = region;
-            region.cylinder = agreed(region);
+            if (region.cylinder.off > finer * within) // else none is far enough from it to draw it away
+                region.cylinder = agreed(region);
             if (best && region.cylinder.off <= finer * within &&
                 std::ranges::any_of(from, [&](int f) { return !lies_on(solid_, region.cylinder, f, finer * within); }))
                 return std::nullopt; // a narrow triangle beside the bend, which is found from
@@ -246,15 +247,20 @@ private:
     FittedCylinder agreed(const Region& region) const
     {
         constexpr int most_steps = 8, unknowns = 5;
-        std::vector<int> vertices = corners(solid_, region.face);
-        const size_t most = vertices.size() * 3 / 4;
+        std::vector<std::pair<double, int>> by_distance; // mm, from the cylinder
+        for (const int v : corners(solid_, region.face))
+            by_distance.emplace_back(0, v);
+        const size_t most = by_distance.size() * 3 / 4;
+        std::vector<int> nearest(most);
         FittedCylinder cylinder = region.cylinder;
         if (most < 2 * unknowns)
             return cylinder;
         for (int step = 0; step < most_steps; ++step) {
-            const auto off = [&](int v) { return std::abs(distance_from_axis(cylinder, at(v)) - cylinder.radius); };
-            std::ranges::sort(vertices, {}, off);
-            const std::vector<int> nearest(vertices.begin(), vertices.begin() + long(most));
+            for (auto& [off, v] : by_distance)
+                off = std::abs(distance_from_axis(cylinder, at(v)) - cylinder.radius);
+            std::ranges::sort(by_distance);
+            for (size_t i = 0; i < most; ++i)
+                nearest[i] = by_distance[i].second;
             const auto fit = fitted(cylinder, solid_.position(Eigen::all, nearest), Eigen::VectorXd::Zero(long(most)));
             if (!fit)
                 return region.cylinder;
