@@ -10,6 +10,7 @@
 #include "engine/mesh/solid/border/beside_solid.h"
 #include "engine/mesh/solid/border/onto_projection.h"
 #include "engine/mesh/topology.h"
+#include "tests/support/plane_faces.h"
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"
 
@@ -60,6 +61,22 @@ TEST(BesideSolid, LetsRightBordersPass)
         if (k % 3 == 0) // its normals lead inwards
             part.solid.triangle.row(1).swap(part.solid.triangle.row(2));
         EXPECT_TRUE(beside_solid(part.middle, part.solid, part.thickness, 0.01 * part.thickness).empty()) << k;
+    }
+}
+
+TEST(BesideSolid, LetsATonguePassThatTouchesTheSheetItWasBentOutOf)
+{
+    // Cut square to the edge of the tongue: it lies lower than the sheet by less than a thickness.
+    constexpr double t = 2, edge = 20;
+    for (const double lower : {0.2, 1., 1.8}) {
+        const TriMesh solid = shapes::extruded(
+            {{0, -lower}, {edge, -lower}, {edge, 0}, {40, 0}, {40, t}, {edge, t}, {edge, t - lower}, {0, t - lower}},
+            {}, 30);
+        TriMesh tongue = shapes::rectangle(edge, 30, 10, 15); // extruded along y
+        tongue.position.row(2).setConstant(t / 2 - lower);
+        EXPECT_TRUE(beside_solid(tongue, solid, t, 0.01 * t).empty()) << lower;
+        tongue.position.row(0) *= 0.9; // and where it ends too early that is said
+        EXPECT_FALSE(beside_solid(tongue, solid, t, 0.01 * t).empty()) << lower;
     }
 }
 

@@ -37,7 +37,7 @@ double beside(const BorderPlace& at, const SheetSection& section, double toleran
     if (at.outward.isZero())
         return 0;
     const std::optional<double> askew = section.to_askew_wall(at);
-    if (!askew && section.ends(at, tolerance))
+    if (!askew && (section.ends(at, tolerance) || section.steps_to_another_leg(at, tolerance)))
         return 0;
     constexpr double nearby = 8;                                                 // tolerances
     constexpr int digits = 10;                                                   // a thousandth of what is told

@@ -42,6 +42,23 @@ bool SheetSection::ends(const BorderPlace& at, double tolerance) const
     return false;
 }
 
+bool SheetSection::steps_to_another_leg(const BorderPlace& at, double tolerance) const
+{
+    // Near the root the step is small; sheet that goes on climbs less the nearer it is looked at.
+    constexpr double near = 0.05, steep = 0.5; // of the tolerance, to both sides; of that: 14 degrees
+    const double reach = 3 * half_, aside = near * tolerance;
+    const auto step = [&](double way) { // mm, of the outermost matter on that side of the middle
+        const auto down_to = [&](double outwards) {
+            const Eigen::Vector3d up = way * reach * at.normal;
+            return 2 * reach * rays_.first(at.place + outwards * at.outward + up, -2 * up).distance;
+        };
+        return way * (down_to(-aside) - down_to(aside));
+    };
+    const double above = step(1), below = step(-1); // not finite where there is no matter
+    return std::isfinite(above) && std::isfinite(below) && above * below > 0 &&
+           std::min(std::abs(above), std::abs(below)) > steep * aside;
+}
+
 double SheetSection::to_the_end(const BorderPlace& at, double first, double most, int digits) const
 {
     const bool inside = matter(at, first);

@@ -27,6 +27,11 @@ public:
     /// beyond, if only across a slit.
     bool ends(const BorderPlace& at, double tolerance) const;
 
+    /// Whether what is beyond the place is another leg that passes by at another height, as beside
+    /// the root of a tongue that was sheared and bent out of the sheet without a gap: both skins
+    /// step the same way, more steeply than sheet is bent within the tolerance.
+    bool steps_to_another_leg(const BorderPlace& at, double tolerance) const;
+
     /// Where the solid ends from a place outwards, mm, < 0: before it; `most` at most.
     /// @param first  mm, the least that is looked at @param digits  of a binary fraction
     double to_the_end(const BorderPlace& at, double first, double most, int digits) const;
