@@ -111,6 +111,12 @@ struct PartFile {
                                            ///< source_face are new
 };
 
+/// Whether the file says its unit of length.
+inline bool unit_is_stated(const PartFile& part)
+{
+    return (part.cad && part.cad->unit_stated) || (part.deck && part.deck->unit_stated);
+}
+
 /// What is told of a part, beside what the doctor finds.
 struct Remarks {
     std::vector<std::string> notes, doubts; ///< as those of a PartFile

@@ -20,7 +20,7 @@ std::optional<std::string> unlikely_size(const PartFile& part, bool unit_given)
     constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's
                                                 // plate
     const double diagonal = bounding_diagonal(part.mesh);
-    const bool unit_known = unit_given || (part.cad && part.cad->unit_stated) || (part.deck && part.deck->unit_stated);
+    const bool unit_known = unit_given || unit_is_stated(part);
     if (unit_known || (diagonal >= small && diagonal <= large))
         return std::nullopt;
     return fmt::format("the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",

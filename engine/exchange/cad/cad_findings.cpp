@@ -272,6 +272,8 @@ void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Find
     else
         for (const Piece& piece : pieces(cad, part))
             choices.push_back(ranges(piece.faces));
+    if (choices.size() < 2) // its triangles are in pieces, of which no name is known
+        return;
     const std::span<const std::string> named = std::span(choices).first(std::min(shown, choices.size()));
     findings.push_back({Fault::several_components,
                         Severity::fatal,

@@ -1,6 +1,7 @@
 #include "engine/mesh/doctor/doctor.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "engine/mesh/doctor/doctor_checks.h"
@@ -69,7 +70,11 @@ Examination examine(const PolygonSoup& soup, const DoctorOptions& options, const
     DoctorReport report;
     if (!readable(soup, report)) {
         locate(soup, report);
-        return {{}, {}, {}, std::move(report)};
+        Examination nothing;
+        nothing.report = std::move(report);
+        nothing.same_as.resize(size_t(soup.vertices()));
+        std::iota(nothing.same_as.begin(), nothing.same_as.end(), 0);
+        return nothing;
     }
 
     SurfaceTriangles split = surface_triangles(soup, options, report, progress.part(0, 0.6));

@@ -116,7 +116,9 @@ void check_topology(const MendedSurface& s, int vertices, DoctorReport& report)
             report.components == 1 ? std::string("the surface is closed, it has no boundary")
                                    : fmt::format("{} closed, without a boundary (first: the one of face {})",
                                                  counted(closed.count, "piece is", "pieces are"), closed.first),
-            "a sheet is described by one of its skins: delete the other side and the faces across the thickness");
+            report.components == 1
+                ? "a sheet is described by one of its skins: delete the other side and the faces across the thickness"
+                : "take one of the pieces alone: if it is a solid of sheet, one surface of it is laid flat");
     if (report.genus.value_or(0) > 0)
         report.add(Fault::handle, Severity::fatal, Tally{*report.genus, -1, {}},
                    fmt::format("the surface has {} (genus {}), like the ear of a cup: it cannot be flattened as it is",

@@ -17,7 +17,7 @@ namespace spia {
 namespace {
 
 /// What was given may be meant in another unit.
-std::vector<std::string> unlikely_input(const FlattenOptions& options)
+std::vector<std::string> unlikely_input(const PartFile& part, const FlattenOptions& options)
 {
     std::vector<std::string> list;
     constexpr double least_MPa = 10, greatest_MPa = 2500; // lead; the strongest press-hardened
@@ -36,7 +36,8 @@ std::vector<std::string> unlikely_input(const FlattenOptions& options)
         if (thickness < thinnest || thickness > thickest)
             list.push_back(fmt::format("{} is {:.3g} mm thick: is that in mm?", what, thickness));
     };
-    gauge("the sheet", options.thickness);
+    if (!unit_is_stated(part) || options.thickness != part.thickness_mm)
+        gauge("the sheet", options.thickness);
     for (const TailoredPiece& piece : options.process.tailored)
         gauge(piece.name, piece.thickness);
     for (const ContactRegion& region : options.process.contact)
@@ -132,7 +133,7 @@ std::vector<std::string> shortcomings(const Session& session)
             list.push_back(std::move(line));
     }
     if (session.blank) {
-        for (std::string& line : unlikely_input(session.options.flatten))
+        for (std::string& line : unlikely_input(*session.part, session.options.flatten))
             list.push_back(std::move(line));
         for (std::string& line : other_thickness(*session.part, session.options.flatten.thickness))
             list.push_back(std::move(line));

@@ -127,6 +127,15 @@ TEST_F(CadDamageTest, AFaultInAPointOrInTheUnitOfLengthsRefusesTheFile)
                 HasSubstr("damaged"));
 }
 
+TEST_F(CadDamageTest, PlacesBeyondAllPartsAreSaidAndMakeNoPart)
+{
+    std::ofstream(file) << replaced(box(), "\\(30\\.,", "(1.E12,");
+    const PartFile part = examine_part(file);
+    EXPECT_EQ(part.mesh.triangles(), 0);
+    EXPECT_EQ(int(part.same_as.size()), part.file_vertices);
+    EXPECT_THAT(spia::refusal(part.doctor).value_or(""), HasSubstr("beyond 1000000000 mm"));
+}
+
 TEST_F(CadDamageTest, AFaultInWhatAUnitOfLengthsRefersToRefusesTheFile)
 {
     const auto in_doubles = [&](const std::string& exponents) {

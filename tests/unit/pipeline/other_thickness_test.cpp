@@ -27,4 +27,20 @@ TEST(OtherThickness, ThanTheSolidsIsTold)
                 testing::Contains(testing::HasSubstr("the solid is 2 mm thick and the sheet is calculated as 3 mm")));
 }
 
+TEST(OtherThickness, OfThickPlateIsNoQuestionWhereTheFileStatesItsUnit)
+{
+    const ScratchFolder folder;
+    shapes::BentSolid solid;
+    solid.thickness = 38;
+    solid.leg = {400, 300};
+    solid.bend = {{60, 1.2}};
+    solid.width = 500;
+    shapes::write_bent_solid(folder / "part.step", solid);
+    Session session = solved_part(folder / "part.step");
+    const auto question = testing::Contains(testing::HasSubstr("is that in mm?"));
+    EXPECT_THAT(shortcomings(session), testing::Not(question));
+    session.options.flatten.thickness = 39; // as a user may have typed it
+    EXPECT_THAT(shortcomings(session), question);
+}
+
 } // namespace spia
