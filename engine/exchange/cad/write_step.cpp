@@ -16,18 +16,23 @@
 namespace spia {
 namespace {
 
-TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces, std::span<const std::vector<TrimLoop>> holes)
+/// @param faces  counted
+TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces, std::span<const std::vector<TrimLoop>> holes,
+                        size_t& faces)
 {
     TopoDS_Shell shell;
     BRep_Builder builder;
     builder.MakeShell(shell);
     BRepBuilderAPI_Sewing sewing(step_resolution);
-    for (size_t i = 0; i < surfaces.size(); ++i) {
-        const TopoDS_Face face = trimmed_face(surfaces[i], i < holes.size() ? holes[i] : std::vector<TrimLoop>());
-        builder.Add(shell, face);
-        sewing.Add(face);
-    }
-    if (surfaces.size() == 1)
+    faces = 0;
+    for (size_t i = 0; i < surfaces.size(); ++i)
+        for (const TopoDS_Face& face :
+             trimmed_faces(surfaces[i], i < holes.size() ? holes[i] : std::vector<TrimLoop>())) {
+            builder.Add(shell, face);
+            sewing.Add(face);
+            ++faces;
+        }
+    if (faces == 1)
         return shell;
     sewing.Perform();
     return sewing.SewedShape();
@@ -52,8 +57,9 @@ void write_step(const std::filesystem::path& path, std::span<const NurbsSurface>
                 LengthUnit unit, std::span<const std::vector<TrimLoop>> holes)
 {
     write_cad_file(path, surfaces, [&] {
-        return step_text([&] { return open_shell(surfaces, holes); }, STEPControl_ShellBasedSurfaceModel,
-                         [&](const StepData_StepModel& model) { require_faces(model, surfaces.size()); },
+        size_t faces = 0;
+        return step_text([&] { return open_shell(surfaces, holes, faces); }, STEPControl_ShellBasedSurfaceModel,
+                         [&](const StepData_StepModel& model) { require_faces(model, faces); },
                          path.filename().string(), part_name, unit);
     });
 }

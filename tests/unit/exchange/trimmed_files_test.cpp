@@ -125,4 +125,58 @@ TEST(TrimmedFiles, WithoutHolesAreAsBefore)
     EXPECT_EQ(read_back(folder / "none.igs").loops, 1);
 }
 
+/// A cone that was cut open, whose sides fit each other but for `gap`, mm, in the middle.
+static NurbsSurface cut_cone(double gap)
+{
+    constexpr int round = 13, along = 4;
+    NurbsSurface cone;
+    cone.degree_u = cone.degree_v = 3;
+    cone.count_u = round;
+    cone.count_v = along;
+    cone.knots_u = {0, 0, 0};
+    for (int i = 0; i <= round - 3; ++i)
+        cone.knots_u.push_back(double(i) / (round - 3));
+    cone.knots_u.insert(cone.knots_u.end(), 3, 1);
+    cone.knots_v = {0, 0, 0, 0, 1, 1, 1, 1};
+    cone.control.resize(3, round * along);
+    cone.weight = Eigen::VectorXd::Ones(round * along);
+    for (int j = 0; j < along; ++j)
+        for (int i = 0; i < round; ++i) {
+            const double angle = 2 * pi * i / (round - 1), radius = 40 - 6 * j;
+            cone.control.col(cone.index(i, j)) << radius * std::cos(angle) - 4 * j, radius * std::sin(angle), 25 * j;
+        }
+    for (const int j : {1, 2})
+        cone.control(1, cone.index(round - 1, j)) += gap;
+    return cone;
+}
+
+TEST(TrimmedFiles, ASurfaceThatWasCutOpenIsReadWhole)
+{
+    const ScratchFolder folder;
+    const std::vector<NurbsSurface> surface = {cut_cone(2e-5)};
+    // A hole where it would be divided, and one elsewhere.
+    const std::vector<std::vector<TrimLoop>> holes = {{ellipse({0.5, 0.5}, 0.1, 0.3), ellipse({0.8, 0.5}, 0.1, 0.3)}};
+    const auto inside = [](double u, double v, double middle) {
+        return std::hypot((u - middle) / 0.1, (v - 0.5) / 0.3) < 1;
+    };
+    double whole = 0, left = 0;
+    constexpr int n = 400;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double u = (i + 0.5) / n, v = (j + 0.5) / n;
+            const SurfacePoint at = evaluate(surface[0], u, v);
+            const double cell = at.S_u.cross(at.S_v).norm() / (n * n);
+            whole += cell;
+            left += inside(u, v, 0.5) || inside(u, v, 0.8) ? 0 : cell;
+        }
+    write_step(folder / "cone.step", surface);
+    const Written plain = read_back(folder / "cone.step", 0.05);
+    EXPECT_NEAR(plain.area / whole, 1, 1e-3);
+    EXPECT_EQ(plain.faces, 2);
+    write_step(folder / "holes.step", surface, "part", LengthUnit::mm, holes);
+    const Written cut = read_back(folder / "holes.step", 0.05);
+    EXPECT_EQ(cut.faces, 2);
+    EXPECT_NEAR(cut.area / left, 1, 1e-3);
+}
+
 } // namespace spia::trimmed_files_test
