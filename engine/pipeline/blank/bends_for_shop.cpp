@@ -7,7 +7,9 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 namespace {
@@ -26,6 +28,48 @@ std::optional<Eigen::Vector3d> plane_of(const PartFile& part, const BendMap& map
     return part.cad->surface[size_t(most->first)].direction;
 }
 
+/// Radians, what CAD faces turn along the edge between two regions, the mean of its ends; nothing
+/// where their normals are not known.
+std::optional<double> stated_turn(const PartFile& part, const BendMap& map, const Bend& fold)
+{
+    double sum = 0, length = 0;
+    const std::vector<EdgeUse> uses = edge_uses(part.mesh.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end != begin + 2)
+            return;
+        const EdgeUse &one = uses[begin], &other = uses[begin + 1];
+        const auto [low, high] = std::minmax(map.label[one.face], map.label[other.face]);
+        if (low != fold.a || high != fold.b)
+            return;
+        const double edge = (part.mesh.position.col(one.high) - part.mesh.position.col(one.low)).norm();
+        for (const int v : {one.low, one.high}) {
+            const auto normal = [&](int f) {
+                return part.corner_normal[size_t(f)].col(part.mesh.corner_of(f, v)).cast<double>().eval();
+            };
+            const Eigen::Vector3d a = normal(one.face), b = normal(other.face);
+            if (a.isZero() || b.isZero())
+                continue;
+            sum += edge * angle_between(a, b);
+            length += edge;
+        }
+    });
+    return length > 0 ? std::optional(sum / length) : std::nullopt;
+}
+
+/// Edges between facets of a smooth CAD face, or of two that go over into each other, are none of
+/// the part.
+void leave_out_smooth(const PartFile& part, BendMap& map)
+{
+    constexpr double folded = 0.5; // of what the facets turn
+    if (!part.corner_normal.empty())
+        std::erase_if(map.bends, [&](const Bend& bend) { // those without faces come last: the others keep their labels
+            if (bend.faces > 0 || bend.b < 0)
+                return false;
+            const auto turn = stated_turn(part, map, bend);
+            return turn && *turn < folded * std::abs(bend.angle);
+        });
+}
+
 } // namespace
 
 BendMap bends_for_shop(const PartFile& part)
@@ -36,8 +80,11 @@ BendMap bends_for_shop(const PartFile& part)
         part.cad && !part.cad->surface.empty() && std::ranges::all_of(part.source_face, [&](int f) {
             return part.cad->surface[size_t(part.cad->face[size_t(f)])].kind != StatedSurface::Kind::other;
         });
-    if (!stated)
-        return find_bends(part.mesh, limits);
+    if (!stated) {
+        BendMap map = find_bends(part.mesh, limits);
+        leave_out_smooth(part, map);
+        return map;
+    }
     limits.sharp = std::numbers::pi / 180; // a press brake is set no finer
     BendMap map = find_bends(part.mesh, limits);
     std::erase_if(map.bends, [&](const Bend& bend) { // those without faces come last: the others
@@ -50,6 +97,24 @@ BendMap bends_for_shop(const PartFile& part)
         return std::abs(between - std::abs(bend.angle)) > alike * std::abs(bend.angle);
     });
     return map;
+}
+
+bool is_within_a_face(const PartFile& part, const BendMap& map, size_t k)
+{
+    if (!part.cad || map.bends[k].faces == 0)
+        return false;
+    const auto cad_face = [&](int f) { return part.cad->face[size_t(part.source_face[size_t(f)])]; };
+    const Eigen::VectorXd size = area_vectors(part.mesh).colwise().norm();
+    const int label = int(map.regions.size() + k);
+    std::map<int, double> of_bend, all; // mm2 times 2, by CAD face
+    for (int f = 0; f < part.mesh.triangles(); ++f) {
+        all[cad_face(f)] += size[f];
+        if (map.label[f] == label)
+            of_bend[cad_face(f)] += size[f];
+    }
+    const auto most = std::ranges::max_element(of_bend, {}, [](const auto& a) { return a.second; });
+    constexpr double some = 0.1; // more than remeshing moves to a neighbour
+    return most != of_bend.end() && all[most->first] - most->second > some * all[most->first];
 }
 
 } // namespace spia

@@ -6,7 +6,12 @@ namespace spia {
 
 /// The bends that a shop is told of. Where a CAD file states that all faces are planes and
 /// cylinders, an edge between two planes is a fold, however little it turns, if the planes turn by
-/// as much: triangles that a rim tilts do not. Of other parts it may be an edge between chords.
+/// as much: triangles that a rim tilts do not. Of other parts it may be an edge between chords: it is
+/// none where the CAD faces go over into each other, or where it is within one of them.
 BendMap bends_for_shop(const PartFile& part);
+
+/// Whether bend k is only some of a CAD face, which goes on into sheet that is bent less: a shape
+/// that is rolled or drawn, and not bent along a line.
+bool is_within_a_face(const PartFile& part, const BendMap& map, size_t k);
 
 } // namespace spia

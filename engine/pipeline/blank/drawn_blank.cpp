@@ -7,6 +7,7 @@
 
 #include "engine/core/small_dense.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/blank/bends_for_shop.h"
 #include "engine/pipeline/blank/blank_marks.h"
 #include "engine/pipeline/blank/parts_of_table.h"
 #include "engine/pipeline/blank/sharp_folds.h"
@@ -128,7 +129,8 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
         constexpr double least = 0.5 * std::numbers::pi / 180;
         if (known[k] < 0 && (part_of_known[k] || (table && std::abs(bend.angle) < least)))
             continue;
-        if (straight_only && known[k] < 0 && ((table && bend.faces == 0) || !ends.of(map, k, blank.position)))
+        if (straight_only && known[k] < 0 &&
+            ((table && bend.faces == 0) || !ends.of(map, k, blank.position) || is_within_a_face(part, map, k)))
             continue; // sharp ones are in the table
         const SheetBend* stated =
             known[k] >= 0 && !table->bends[size_t(known[k])].line.empty() ? &table->bends[size_t(known[k])] : nullptr;

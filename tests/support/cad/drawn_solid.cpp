@@ -13,6 +13,9 @@
 #include <BRep_Tool.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GProp_GProps.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -195,6 +198,37 @@ void write_conical_sheet(const std::filesystem::path& file, const ConicalSheet& 
     const OcctSession session;
     write_solid(file, turned(Profile({sheet.from, 0}, sheet.slope).straight(sheet.length), sheet.thickness, sheet.turn),
                 form);
+}
+
+double write_waved_sheet(const std::filesystem::path& file, std::uint64_t seed, CadForm form)
+{
+    const OcctSession session;
+    SeededRandom random(seed);
+    const double t = random.between(0.5, 2), wave = t * random.between(30, 80),
+                 high = wave * random.between(0.05, 0.15), length = wave * random.between(0.6, 3),
+                 k = 2 * std::numbers::pi / wave, phase = random.between(0, 6);
+    constexpr int places = 120;
+    const auto side = [&](double off) { // mm, from the middle
+        Handle(TColgp_HArray1OfPnt) place = new TColgp_HArray1OfPnt(1, places + 1);
+        for (int i = 0; i <= places; ++i) {
+            const double x = length * i / places, slope = high * k * std::cos(k * x + phase),
+                         n = std::sqrt(1 + slope * slope);
+            place->SetValue(i + 1, gp_Pnt(x - off * slope / n, 0, high * std::sin(k * x + phase) + off / n));
+        }
+        GeomAPI_Interpolate through(place, false, 1e-9);
+        through.Perform();
+        return through.Curve();
+    };
+    const Handle(Geom_BSplineCurve) low = side(-t / 2), top = side(t / 2);
+    BRepBuilderAPI_MakeWire wire(
+        BRepBuilderAPI_MakeEdge(low).Edge(), BRepBuilderAPI_MakeEdge(low->EndPoint(), top->EndPoint()).Edge(),
+        BRepBuilderAPI_MakeEdge(top).Edge(), BRepBuilderAPI_MakeEdge(top->StartPoint(), low->StartPoint()).Edge());
+    write_solid(file,
+                BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(),
+                                      gp_Vec(0, wave * random.between(0.5, 2), 0))
+                    .Shape(),
+                form);
+    return t;
 }
 
 DrawnSolid write_drawn_solid(const std::filesystem::path& file, std::uint64_t seed, CadForm form)

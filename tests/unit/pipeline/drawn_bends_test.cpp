@@ -62,7 +62,10 @@ protected:
     void expect_none(CadForm form)
     {
         SCOPED_TRACE(write_drawn_solid(file_of(folder_, form), GetParam(), form).kind);
-        const Session session = solved(file_of(folder_, form));
+        expect_none(solved(file_of(folder_, form)));
+    }
+    static void expect_none(const Session& session)
+    {
         for (const SheetBend& bend : session.bends->bends)
             ADD_FAILURE() << "a row: R " << bend.inner_radius << ", " << bend.angle / degree << " degrees, "
                           << bend.length << " long" << (bend.sharp ? ", sharp " : " ") << bend.why_not;
@@ -100,6 +103,11 @@ protected:
 
 TEST_P(DrawnBends, OfAStepFileAreNoneForAPressBrake) { expect_none(CadForm::step); }
 TEST_P(DrawnBends, OfAnStlFileAreNoneForAPressBrake) { expect_none(CadForm::stl); }
+TEST_P(DrawnBends, OfARolledSheetAreNoneForAPressBrake)
+{
+    shapes::write_waved_sheet(folder_ / "part.step", GetParam());
+    expect_none(solved(folder_ / "part.step"));
+}
 TEST_P(DrawnBends, BesideAnEmbossOfAStepFileAreAsTheyWereMade) { expect_all(CadForm::step); }
 TEST_P(DrawnBends, BesideAnEmbossOfAnStlFileAreAsTheyWereMade) { expect_all(CadForm::stl); }
 
