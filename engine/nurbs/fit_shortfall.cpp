@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
+#include <functional>
 
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
@@ -34,8 +35,11 @@ std::array<Eigen::Vector3d, 4> corners_of(const NurbsSurface& surface)
 }
 
 /// The edge within reach, and the corner of a border, between the faces of the part.
+/// @param number  per vertex in the file. A smooth sheet is of finer triangles than the part: of its
+///                edges those count whose ends are two vertices of the file
 void look_around(const TriMesh& mesh, int part_faces, const std::array<Eigen::Vector3d, 4>& own_corners,
-                 const Eigen::Vector3d& where, double reach, Sharpest& edge, Sharpest& corner)
+                 const std::function<int(int)>& number, const Eigen::Vector3d& where, double reach, Sharpest& edge,
+                 Sharpest& corner)
 {
     const Eigen::Matrix3Xd normal = area_vectors(mesh);
     struct Ends {
@@ -54,7 +58,8 @@ void look_around(const TriMesh& mesh, int part_faces, const std::array<Eigen::Ve
             border[size_t(to)].before = from;
             return;
         }
-        if (distance_to_segment(where, mesh.position.col(use.low), mesh.position.col(use.high)) > reach)
+        if (number(use.low) == number(use.high) ||
+            distance_to_segment(where, mesh.position.col(use.low), mesh.position.col(use.high)) > reach)
             return;
         const double angle = angle_between(normal.col(use.face), normal.col(uses[begin + 1].face));
         if (angle > edge.angle)
@@ -84,14 +89,14 @@ FitShortfall find_shortfall(const NurbsSurface& surface, const TriMesh& mesh, co
     // reason.
     const double notable = (otherwise == FitShortfall::Reason::data ? 20 : 5) * M_PI / 180;
     const int part_faces = options.part_faces < 0 ? mesh.triangles() : options.part_faces;
-    Sharpest edge, corner;
-    look_around(mesh, part_faces, corners_of(surface), where, reach, edge, corner);
-
-    FitShortfall result;
-    result.where = where;
     const auto number = [&](int vertex) {
         return vertex < int(options.file_number.size()) ? options.file_number[size_t(vertex)] : vertex;
     };
+    Sharpest edge, corner;
+    look_around(mesh, part_faces, corners_of(surface), number, where, reach, edge, corner);
+
+    FitShortfall result;
+    result.where = where;
     const auto degrees = [](double angle) { return angle * 180 / M_PI; };
     const std::string far =
         fmt::format("the surface deviates by {:.3g} mm where {:.3g} mm are allowed, at ({:.1f}, {:.1f}, {:.1f} mm)",

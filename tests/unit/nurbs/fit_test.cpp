@@ -185,6 +185,9 @@ TEST(Fit, SharpEdgeThatKeepsItAwayIsNamed)
     EXPECT_LE(shortfall.angle, 1.1 * std::numbers::pi / 2);
     EXPECT_LT(result.deviation.within(), 1);
     EXPECT_GT(result.deviation.within(), 0.5) << "the two planes are met";
+    // Where all vertices are of one of the file it is no edge of the part.
+    options.file_number.assign(size_t(meshed.mesh.vertices()), 7000);
+    EXPECT_NE(fit(meshed.source, meshed.mesh, options).report.shortfall.reason, FitShortfall::Reason::sharp_edge);
 }
 
 TEST(Fit, CornerOfTheOutlineIsNamed)
