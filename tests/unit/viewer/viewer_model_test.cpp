@@ -373,6 +373,17 @@ TEST_F(ViewerModelTest, ExportsInTheBackground)
     for (const char* file : {"dome.iges", "fields.csv", "outline.csv"})
         EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
     EXPECT_TRUE(says(Severity::done, "dome.iges"));
+    // Why an export failed is of the past with the next one.
+    const auto failures = [&] {
+        return std::ranges::count_if(state.messages,
+                                     [](const Message& m) { return m.shown() && m.severity == Severity::error; });
+    };
+    model.apply(ExportFiles{folder / "out" / "dome.iges", {"iges"}, {}}); // a file is no folder
+    wait();
+    EXPECT_EQ(failures(), 1);
+    model.apply(ExportFiles{folder / "out", {"iges"}, {}});
+    wait();
+    EXPECT_EQ(failures(), 0);
 }
 
 TEST_F(ViewerModelTest, AProjectWhosePartHasGoneTellsWhereItWas)

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/recent_files.h"
+#include "engine/options/option.h"
 #include "engine/pipeline/outputs/outputs.h"
+#include "engine/report/text/sentence.h"
 
 namespace spia::viewer {
 
@@ -80,6 +82,10 @@ void ViewerModel::Apply::operator()(const ExportFiles& action)
         throw Busy("Wait for the running job to end, then export.");
     if (!session.blank)
         throw InputError("There is nothing to export yet: unfold the part first.");
+    if (state.exported) // why the one before failed is of the past
+        for (Message& message : state.messages)
+            message.dismissed |=
+                message.severity == Severity::error && message.text == sentence(window_text(state.exported->error));
     state.exported.reset();
     state.job = JobView{};
     state.job.running = true;
