@@ -1,5 +1,6 @@
 #include "engine/core/json_file.h"
 
+#include <algorithm>
 #include <fmt/core.h>
 #include <fstream>
 #include <set>
@@ -75,6 +76,11 @@ Json parse_json(std::string_view text, const std::string& name, bool comments)
             return true;
         };
         return Json::parse(text, see, true, comments);
+    } catch (const Json::parse_error& error) {
+        if (error.byte > text.size()) // counted from 1
+            throw InputError(fmt::format("{} ends in the middle, at line {}: it was cut off; copy or save it again",
+                                         name, 1 + std::ranges::count(text, '\n')));
+        throw InputError(fmt::format("{}: {}", name, plain(error)));
     } catch (const Json::exception& error) {
         throw InputError(fmt::format("{}: {}", name, plain(error)));
     }

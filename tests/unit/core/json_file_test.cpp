@@ -40,8 +40,17 @@ TEST(JsonFile, TheSameNameInOtherObjectsIsNoDouble)
 TEST(JsonFile, WhatIsNoJsonOrNoNumberIsToldWithTheFile)
 {
     EXPECT_EQ(fault(R"({"a": 1e400})"), "own.json: number overflow parsing '1e400'");
-    EXPECT_EQ(fault(R"({"a": 1, )").substr(0, 40), "own.json: parse error at line 1, column ");
-    EXPECT_EQ(fault("").substr(0, 10), "own.json: ");
+    EXPECT_EQ(fault(R"({"a": 1,, })").substr(0, 40), "own.json: parse error at line 1, column ");
+    EXPECT_EQ(fault("").substr(0, 8), "own.json");
+}
+
+TEST(JsonFile, ThatWasCutOffIsSaidToBe)
+{
+    const std::string text = "{\"a\": [1, true,\n\"text\"], \"b\": null}";
+    for (size_t length = 1; length < text.size(); ++length)
+        EXPECT_NE(fault(text.substr(0, length)).find("it was cut off"), std::string::npos) << text.substr(0, length);
+    EXPECT_NE(fault(text.substr(0, 20)).find("at line 2"), std::string::npos);
+    EXPECT_EQ(fault("{]").find("it was cut off"), std::string::npos);
 }
 
 } // namespace spia
