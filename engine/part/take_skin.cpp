@@ -10,6 +10,7 @@
 #include "engine/core/text.h"
 #include "engine/mesh/solid/border/beside_solid.h"
 #include "engine/mesh/solid/border/onto_projection.h"
+#include "engine/mesh/solid/fit/coordinate_rounding.h"
 #include "engine/mesh/solid/fit/measured_cylinders.h"
 #include "engine/mesh/solid/holes/sunk_holes.h"
 #include "engine/mesh/solid/marks/blind_holes.h"
@@ -317,7 +318,7 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     Surfaces surface = stated_by_cad(part);
     const bool measured = surface.empty();
     if (measured)
-        surface = measured_cylinders(part.mesh, sheet);
+        surface = measured_cylinders(part.mesh, sheet, coordinate_rounding(part.mesh.position, millimetres(part.unit)));
     else
         sheet.thickness = stated_thickness(part.mesh, sheet, surface);
     const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);

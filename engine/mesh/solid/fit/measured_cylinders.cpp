@@ -36,11 +36,20 @@ double tight(double radius, double thickness) { return 1e-3 * std::min(radius, t
 /// mm, likewise of a cylinder through the first three places, which is not yet the one through all.
 double loose(double radius, double thickness) { return std::min(0.01 * radius, 0.02 * thickness); }
 
+/// mm, how far corners may be off that the file's digits move by up to `rounding`, and the cylinder
+/// that is fitted to them by as much the other way. Where that is more than of a first cylinder no
+/// flat beside a bend could be told from it.
+double permitted(double radius, double thickness, double rounding)
+{
+    return std::max(tight(radius, thickness), std::min(2 * rounding, loose(radius, thickness)));
+}
+
 /// One after the other on both skins.
 class CylinderSearch {
 public:
-    CylinderSearch(const TriMesh& solid, const ThinSolid& sheet)
-        : solid_(solid), sheet_(sheet), normal_((sheet.flipped * area_vectors(solid)).colwise().normalized()),
+    CylinderSearch(const TriMesh& solid, const ThinSolid& sheet, double rounding)
+        : solid_(solid), sheet_(sheet), rounding_(rounding),
+          normal_((sheet.flipped * area_vectors(solid)).colwise().normalized()),
           neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))),
           diagonal_(bounding_diagonal(solid)), taken_(size_t(solid.triangles()), 0), seen_(taken_.size(), 0)
     {
@@ -69,6 +78,8 @@ public:
                         keep(std::move(*found), result);
                 if (auto found = round(seed))
                     keep(std::move(*found), result);
+                if (auto found = of_strips(seed))
+                    keep(std::move(*found), result);
             }
         return result;
     }
@@ -76,6 +87,7 @@ public:
 private:
     const TriMesh& solid_;
     const ThinSolid& sheet_;
+    double rounding_;            ///< mm, by which the file's digits move corners
     Eigen::Matrix3Xd normal_;    ///< unit, outwards
     Eigen::Matrix3Xi neighbour_; ///< on the same skin
     double diagonal_;
@@ -165,6 +177,63 @@ private:
         return grown({seed.place + frame * centre, axis, centre.norm(), 0}, {seed.f, seed.g});
     }
 
+    /// mm, of a triangle, across an axis
+    double breadth(int f, const Eigen::Vector3d& axis) const
+    {
+        double most = 0;
+        for (int k = 0; k < 3; ++k)
+            most = std::max(most, (at(solid_.triangle((k + 1) % 3, f)) - at(solid_.triangle(k, f))).cross(axis).norm());
+        return most;
+    }
+
+    /// Triangles around a seed about as broad as the narrower of its own, as chords of one cylinder
+    /// are, that turn around the axis only: the nearest first.
+    std::vector<int> strips(const Seed& seed, size_t most)
+    {
+        constexpr double alike = 1.5; // of the breadth
+        const Eigen::Vector3d axis = seed.edge.normalized();
+        const int first = breadth(seed.f, axis) < breadth(seed.g, axis) ? seed.f : seed.g;
+        const double broad = alike * breadth(first, axis);
+        std::vector<int> faces{first};
+        seen_[size_t(first)] = ++walk_;
+        for (size_t i = 0; i < faces.size() && faces.size() < most; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const int g = neighbour_(k, faces[i]);
+                if (g < 0 || taken_[size_t(g)] || seen_[size_t(g)] == walk_)
+                    continue;
+                seen_[size_t(g)] = walk_;
+                ++visits_;
+                if (const double wide = breadth(g, axis);
+                    wide < broad && turn(faces[i], g) < most_turn &&
+                    std::abs(normal_.col(g).dot(axis)) < parallel + 2 * rounding_ / wide)
+                    faces.push_back(g);
+            }
+        return faces;
+    }
+
+    /// The cylinder through all strips around a seed: three places tell a radius to a hundredth only
+    /// where the sagitta of a chord is a hundred times what the file's digits move them.
+    std::optional<Region> of_strips(const Seed& seed)
+    {
+        constexpr double sure = 100;
+        constexpr size_t fewest_faces = 4, most_faces = 512;
+        const Eigen::Vector3d axis = seed.edge.normalized();
+        const double narrow = std::min(breadth(seed.f, axis), breadth(seed.g, axis));
+        if ((taken_[size_t(seed.f)] && taken_[size_t(seed.g)]) || narrow * turn(seed.f, seed.g) / 8 > sure * rounding_)
+            return std::nullopt;
+        std::vector<int> faces = strips(seed, most_faces);
+        for (; faces.size() >= fewest_faces; faces.resize(faces.size() / 2)) {
+            const Eigen::Matrix3Xd place = solid_.position(Eigen::all, corners(solid_, faces));
+            const auto first = cylinder_along(axis, place);
+            const auto fit = first ? fitted(*first, place, Eigen::VectorXd::Zero(place.cols())) : std::nullopt;
+            if (!fit || fit->off > permitted(fit->radius, sheet_.thickness, rounding_))
+                continue;
+            if (auto found = grown(*fit, {faces.front()}))
+                return found;
+        }
+        return std::nullopt;
+    }
+
     bool is_chord(int f, const FittedCylinder& cylinder, double bulging, double within) const
     {
         if (!lies_on(solid_, cylinder, f, within) || !(normal_.col(f).dot(outwards(cylinder, middle(f))) * bulging > 0))
@@ -223,14 +292,17 @@ private:
         Region region{cylinder, bulging, side(from.front()), {}};
         std::optional<Region> best;
         const auto few = [&](const Region& found) { return int(corners(solid_, found.face).size()) < least_; };
-        for (; within > single * diagonal_; within *= finer) {
+        const double finest = std::max(single * diagonal_, 2 * rounding_);
+        for (;; within = std::max(finer * within, finest)) {
             if (!grow(region, from, within) || (!best && few(region)))
                 break; // finer there are not more
-            if (within <= tight(region.cylinder.radius, sheet_.thickness) && region.cylinder.off <= within &&
-                is_bend(region))
+            if (within <= permitted(region.cylinder.radius, sheet_.thickness, rounding_) &&
+                region.cylinder.off <= within && is_bend(region))
                 best = region;
             if (region.cylinder.off > finer * within) // else none is far enough from it to draw it away
                 region.cylinder = agreed(region);
+            if (within <= finest)
+                break;
             if (best && region.cylinder.off <= finer * within &&
                 std::ranges::any_of(from, [&](int f) { return !lies_on(solid_, region.cylinder, f, finer * within); }))
                 return std::nullopt; // a narrow triangle beside the bend, which is found from
@@ -361,7 +433,8 @@ private:
             angle.push_back(std::atan2(y.dot(out), x.dot(out)));
         }
         std::sort(angle.begin(), angle.end());
-        constexpr double one_place = 5e-3; // radians, more than vertices may be off
+        // radians, more than vertices may be off
+        const double one_place = std::max(5e-3, 2 * rounding_ / cylinder.radius);
         int count = 1;
         for (size_t i = 1; i < angle.size(); ++i)
             count += angle[i] - angle[i - 1] > one_place;
@@ -384,8 +457,8 @@ struct Group {
 
 /// The cylinder of the first region that fits all, with the thickness between both skins; nothing
 /// if none does.
-std::optional<FittedCylinder> common(const TriMesh& solid, double thickness, const std::vector<Region>& regions,
-                                     const std::vector<size_t>& chosen)
+std::optional<FittedCylinder> common(const TriMesh& solid, double thickness, double rounding,
+                                     const std::vector<Region>& regions, const std::vector<size_t>& chosen)
 {
     const Region& first = regions[chosen.front()];
     std::vector<int> vertices;
@@ -398,7 +471,7 @@ std::optional<FittedCylinder> common(const TriMesh& solid, double thickness, con
     const auto fit = fitted(first.cylinder, solid.position(Eigen::all, vertices),
                             Eigen::Map<const Eigen::VectorXd>(shift.data(), Eigen::Index(shift.size())));
     const double inner = fit ? fit->radius - (first.bulging > 0 ? thickness : 0) : 0;
-    if (!(inner > 0) || fit->off > tight(inner, thickness))
+    if (!(inner > 0) || fit->off > permitted(inner, thickness, rounding))
         return std::nullopt;
     return fit;
 }
@@ -413,7 +486,8 @@ bool roughly_coaxial(const Region& a, const Region& b, double thickness)
            distance_from_axis(a.cylinder, b.cylinder.point) < alike * (a.cylinder.radius + thickness);
 }
 
-std::vector<Group> groups_of(const TriMesh& solid, double thickness, const std::vector<Region>& regions)
+std::vector<Group> groups_of(const TriMesh& solid, double thickness, double rounding,
+                             const std::vector<Region>& regions)
 {
     std::vector<Group> groups;
     for (size_t i = 0; i < regions.size(); ++i) {
@@ -423,7 +497,7 @@ std::vector<Group> groups_of(const TriMesh& solid, double thickness, const std::
                 continue;
             std::vector<size_t> together = group.region;
             together.push_back(i);
-            if (const auto fit = common(solid, thickness, regions, together)) {
+            if (const auto fit = common(solid, thickness, rounding, regions, together)) {
                 group = {std::move(together), *fit};
                 joined = true;
             }
@@ -442,11 +516,11 @@ std::vector<Group> groups_of(const TriMesh& solid, double thickness, const std::
 
 } // namespace
 
-std::vector<StatedSurface> measured_cylinders(const TriMesh& solid, const ThinSolid& sheet)
+std::vector<StatedSurface> measured_cylinders(const TriMesh& solid, const ThinSolid& sheet, double rounding)
 {
     std::vector<StatedSurface> surface(size_t(solid.triangles()));
-    const std::vector<Region> regions = CylinderSearch(solid, sheet).regions();
-    for (const Group& group : groups_of(solid, sheet.thickness, regions)) {
+    const std::vector<Region> regions = CylinderSearch(solid, sheet, rounding).regions();
+    for (const Group& group : groups_of(solid, sheet.thickness, rounding, regions)) {
         const double bulging = regions[group.region.front()].bulging;
         for (const size_t i : group.region) {
             const double across = regions[i].bulging == bulging ? 0 : -bulging * sheet.thickness;

@@ -18,8 +18,10 @@ namespace spia {
 ///   sheet does not;
 /// - the sheet goes on tangentially from it, or it has four and more chords.
 /// What was not found so is of no kind.
+/// @param rounding  mm, by how much corners may lie off their places (coordinate_rounding()):
+/// cylinders fit within that, too, up to a fiftieth of the thickness and a hundredth of the radius
 /// @returns per triangle of the solid; `off` as measured. The same values in all triangles of one
 ///         cylinder on one skin.
-std::vector<StatedSurface> measured_cylinders(const TriMesh& solid, const ThinSolid& sheet);
+std::vector<StatedSurface> measured_cylinders(const TriMesh& solid, const ThinSolid& sheet, double rounding = 0);
 
 } // namespace spia
