@@ -3,10 +3,38 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
+namespace {
+
+/// Per sharp bend of the map the share of its length that a bend of the table is beside: there it is
+/// an edge of a chord, also where the chord counts to the region of the flat beside it.
+std::vector<double> beside_chords(const TriMesh& part, const BendMap& map, const std::vector<int>& bend_of)
+{
+    std::map<std::pair<int, int>, std::pair<double, double>> length; // by regions: of all, beside chords
+    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end != begin + 2)
+            return;
+        const int f = uses[begin].face, g = uses[begin + 1].face;
+        auto& [all, beside] = length[std::minmax(map.label[f], map.label[g])];
+        const double edge = (part.position.col(uses[begin].low) - part.position.col(uses[begin].high)).norm();
+        all += edge;
+        beside += bend_of[size_t(f)] >= 0 || bend_of[size_t(g)] >= 0 ? edge : 0;
+    });
+    std::vector<double> share;
+    for (const Bend& bend : map.bends) {
+        const auto at = bend.faces == 0 ? length.find({bend.a, bend.b}) : length.end();
+        share.push_back(at == length.end() ? 0 : at->second.second / at->second.first);
+    }
+    return share;
+}
+
+} // namespace
 
 std::vector<int> bends_in_table(const BendMap& map, const BendTable& table, std::vector<char>& taken)
 {
@@ -71,11 +99,12 @@ std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const 
     const auto of_bend = [&](int r) {
         return in_bend[size_t(r)] > mostly * region[size_t(r)] || region[size_t(r)] < small * by_region[size_t(r)];
     };
+    const std::vector<double> chords = beside_chords(part, map, bend_of);
     std::vector<char> result;
     for (size_t k = 0; k < map.bends.size(); ++k) {
         const Bend& bend = map.bends[k];
-        const bool edge =
-            bend.faces == 0 && bend.b >= 0 && std::abs(bend.angle) < sharp && (of_bend(bend.a) || of_bend(bend.b));
+        const bool edge = bend.faces == 0 && bend.b >= 0 && std::abs(bend.angle) < sharp &&
+                          (of_bend(bend.a) || of_bend(bend.b) || chords[k] > mostly);
         result.push_back(bend.faces == 0 ? edge : inside[k] > mostly * whole[k] || whole[k] < small * beside[k]);
     }
     return result;
