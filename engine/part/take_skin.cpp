@@ -317,8 +317,9 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
         add(part, on_block(sheet));
     Surfaces surface = stated_by_cad(part);
     const bool measured = surface.empty();
+    const double rounding = measured ? coordinate_rounding(part.mesh.position, millimetres(part.unit)) : 0;
     if (measured)
-        surface = measured_cylinders(part.mesh, sheet, coordinate_rounding(part.mesh.position, millimetres(part.unit)));
+        surface = measured_cylinders(part.mesh, sheet, rounding);
     else
         sheet.thickness = stated_thickness(part.mesh, sheet, surface);
     const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
@@ -339,8 +340,10 @@ PartFile with_skin(const PartFile& examined, Claim claim, const ReadOptions& opt
     add(part, on_bosses(holes));
     add(part, on_blind_holes(blind_holes(part.mesh, sheet)));
     part.solid = origin_of(examined, plain, laid, holes);
-    if (measured)
+    if (measured) {
         part.solid->surface = of_file_faces(part, surface);
+        part.solid->rounding = rounding;
+    }
     if (laid.kind != Skin::middle)
         add(part, on_wide_holes(holes, laid.skin.side));
     std::optional<Finding> sunk;

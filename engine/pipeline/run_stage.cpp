@@ -18,6 +18,7 @@
 #include "engine/options/part_options.h"
 #include "engine/options/surface_options.h"
 #include "engine/part/vertex_numbers.h"
+#include "engine/pipeline/blank/missing_bends.h"
 #include "engine/pipeline/blank/part_bends.h"
 #include "engine/pipeline/blank/sharp_folds.h"
 #include "engine/pipeline/make_surface.h"
@@ -204,6 +205,7 @@ void solve(Session& session, const Progress& whole, const StepWatch& onlooker)
     }
     place_on_blank(fibre, part, flat.blank);
     add_sharp_folds(*session.part, flat.blank, fibre.table);
+    doubt_missing_bends(*session.part, fibre.table);
     if (twice) {
         whole.checkpoint(0.5, "unfolding with the corners joined, to compare");
         session.corner_cut = corner_cut(*session.part, flat, options, whole.part(0.5, 1));

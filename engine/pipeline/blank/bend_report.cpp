@@ -38,6 +38,7 @@ std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& tabl
             first.inner_radius, first.angle * degrees_per_radian, first.place[0], first.place[1], first.place[2],
             why.first, why.second));
     }
+    doubts.insert(doubts.end(), table.doubts.begin(), table.doubts.end());
     if (k_is_given)
         doubts.insert(doubts.end(), table.notes.begin(), table.notes.end());
     return doubts;

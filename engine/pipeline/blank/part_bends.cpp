@@ -22,6 +22,7 @@ SheetLayers layers_of(const PartFile& part, double thickness, const std::optiona
     layers.thickness = part.solid ? part.solid->thickness : thickness;
     layers.k = k;
     if (part.solid) {
+        layers.rounding = part.solid->rounding;
         const double half = layers.thickness / 2;
         const Skin skin = part.solid->skin;
         layers.mesh_at = skin == Skin::outer ? half : skin == Skin::inner ? -half : 0;

@@ -12,7 +12,7 @@ namespace {
 
 using namespace members;
 
-constexpr double most_force = 1e9, most_mm = 1e9;
+constexpr double most_force = 1e9, largest_mm = 1e9;
 
 ContactRegion contact(const Json& json, const Place& place, const std::string& name, const PartFile& part)
 {
@@ -49,9 +49,9 @@ Drawbead drawbead(const Json& json, const Place& place, const std::string& name,
     const Place at = place.member("shape");
     require_object(*shape, at, {"radius", "shoulder_radius", "depth", "friction"});
     BeadShape form;
-    form.radius = *number_in(*shape, at, "radius", 0, most_mm, true);
-    form.shoulder_radius = *number_in(*shape, at, "shoulder_radius", 0, most_mm, true);
-    form.depth = *number_in(*shape, at, "depth", 0, most_mm, true);
+    form.radius = *number_in(*shape, at, "radius", 0, largest_mm, true);
+    form.shoulder_radius = *number_in(*shape, at, "shoulder_radius", 0, largest_mm, true);
+    form.depth = *number_in(*shape, at, "depth", 0, largest_mm, true);
     form.friction = number_in(*shape, at, "friction", 0, 10).value_or(form.friction);
     bead.force_N_mm = force_of(form, bead.line);
     return bead;

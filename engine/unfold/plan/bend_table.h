@@ -54,9 +54,10 @@ struct BendTable {
     bool of_middle = true; ///< the part's mesh is the middle surface; else one of the skins
     std::string surface;   ///< "neutral fibre, K 0.44", "middle surface, K 0.5", "outer skin" ...
     std::vector<SheetBend> bends;
-    std::vector<std::string> kept;  ///< bends that are not laid, in words: they keep the lengths of
-                                    ///< the triangles
-    std::vector<std::string> notes; ///< where else the K factor has no effect
+    std::vector<std::string> kept;        ///< bends that are not laid, in words: they keep the lengths of
+                                          ///< the triangles
+    std::vector<std::string> notes;       ///< where else the K factor has no effect
+    std::vector<std::string> doubts = {}; ///< where bends may have no row
 };
 
 } // namespace spia

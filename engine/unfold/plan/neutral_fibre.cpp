@@ -15,6 +15,7 @@
 #include "engine/options/part_options.h"
 #include "engine/options/sheet_options.h"
 #include "engine/unfold/plan/free_ends.h"
+#include "engine/unfold/plan/turns_on.h"
 
 namespace spia {
 namespace {
@@ -122,6 +123,23 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
         keeps("triangles turn over on the cylinder", finer);
     bend.laid = bend.why_not.empty();
     return result;
+}
+
+/// Zones of a part of a turn only are no bends: their rows would have a wrong angle and radius.
+void refuse_parts_of_turns(const TriMesh& part, double rounding, std::vector<Candidate>& candidates)
+{
+    std::vector<BendZone> zones;
+    for (const Candidate& each : candidates)
+        zones.push_back(each.zone);
+    const std::vector<char> part_of_turn = turns_on(part, zones, rounding);
+    for (size_t c = 0; c < candidates.size(); ++c)
+        if (SheetBend& bend = candidates[c].bend; part_of_turn[c] && bend.laid) {
+            bend.laid = false;
+            bend.why_not = "beyond its ends the sheet turns on or is askew to it, so that its radius and its angle are "
+                           "not those of the whole bend, whose corners lie on no cylinder";
+            bend.way_out = fmt::format("export the mesh with more decimals{}, or the part as STEP",
+                                       rounding > 0 ? fmt::format(" (they are off by up to {:.2g} mm)", rounding) : "");
+        }
 }
 
 /// Zones whose edges have other lengths than the faces beside them have are no bends.
@@ -299,6 +317,8 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
         if (zone.to - zone.from > flat && ends.of(zone)) // else the radius of drawn sheet
             candidates.push_back(candidate(part, std::move(zone), layers));
     compare_borders(part, candidates);
+    if (layers.rounding)
+        refuse_parts_of_turns(part, *layers.rounding, candidates);
 
     NeutralFibre result;
     BendTable& table = result.table;

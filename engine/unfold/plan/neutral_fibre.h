@@ -17,6 +17,9 @@ struct SheetLayers {
                                    ///< is the middle surface
     double face_at = 0;            ///< mm likewise, where the CAD faces lie whose radii are known
     std::optional<KFactor> k = {}; ///< of a middle surface; not given: 0.5
+    /// mm, by how much corners may lie off their places, of a solid whose bends were measured; not
+    /// given: its file states them, or it is no solid
+    std::optional<double> rounding = {};
 };
 
 /// The bends of a part and the lengths with which their faces are laid flat.
