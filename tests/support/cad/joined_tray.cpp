@@ -44,7 +44,7 @@ double JoinedTray::area() const
     return sum;
 }
 
-void write_joined_tray(const std::filesystem::path& file, const JoinedTray& tray)
+void write_joined_tray(const std::filesystem::path& file, const JoinedTray& tray, CadForm form)
 {
     const OcctSession session;
     const double t = tray.thickness;
@@ -52,7 +52,7 @@ void write_joined_tray(const std::filesystem::path& file, const JoinedTray& tray
         BRepAlgoAPI_Cut(rounded_box({0, 0, 0}, {tray.length, tray.width, tray.height}, tray.radius + t),
                         rounded_box({t, t, t}, {tray.length - t, tray.width - t, 2 * tray.height}, tray.radius))
             .Shape();
-    write_solid(file, TopExp_Explorer(solid, TopAbs_SOLID).Current(), CadForm::step);
+    write_solid(file, TopExp_Explorer(solid, TopAbs_SOLID).Current(), form);
 }
 
 } // namespace spia::shapes

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
 
+#include "tests/support/cad/bent_solid.h"
+
 namespace spia::shapes {
 
 /// A tray whose walls are joined at sharp corners, welded say, and bent up from the floor with a
@@ -13,6 +15,6 @@ struct JoinedTray {
     double area() const;
 };
 
-void write_joined_tray(const std::filesystem::path& file, const JoinedTray& tray);
+void write_joined_tray(const std::filesystem::path& file, const JoinedTray& tray, CadForm form = CadForm::step);
 
 } // namespace spia::shapes

@@ -20,6 +20,7 @@
 #include "engine/report/json/report_json.h"
 #include "engine/report/text/shown_lengths.h"
 #include "tests/support/cad/bent_solid.h"
+#include "tests/support/cad/joined_tray.h"
 #include "tests/support/cad/prism.h"
 #include "tests/support/cad/random_bent_solid.h"
 #include "tests/support/mesh_file.h"
@@ -125,6 +126,27 @@ TEST_F(PartBends, LBracketHasTheLengthOfItsNeutralFibre)
         EXPECT_EQ(report["bend_table"]["bends"].size(), 1u);
         EXPECT_TRUE(shortcomings(session).empty());
     }
+}
+
+TEST_F(PartBends, OfAMeshedTrayWithJoinedWallsEndInItsMitres)
+{
+    const shapes::JoinedTray tray;
+    shapes::write_joined_tray(folder_ / "tray.stl", tray, shapes::CadForm::stl);
+    ReadOptions read;
+    read.seam.mode = SeamOptions::Mode::corners;
+    const Session session = solved(folder_ / "tray.stl", {}, read);
+    ASSERT_EQ(session.bends->bends.size(), 4u);
+    for (const SheetBend& bend : session.bends->bends) {
+        EXPECT_NEAR(bend.inner_radius, tray.radius, 1e-4);
+        EXPECT_NEAR(bend.angle, pi / 2, 1e-4);
+        EXPECT_TRUE(bend.laid) << bend.why_not;
+    }
+    const double by_bends =
+        2 * (tray.height + pi / 2 * (tray.radius + tray.thickness / 2) - 2 * (tray.radius + tray.thickness));
+    const Eigen::Vector2d size =
+        session.blank->blank.position.rowwise().maxCoeff() - session.blank->blank.position.rowwise().minCoeff();
+    EXPECT_NEAR(size.maxCoeff(), tray.length + by_bends, 1e-3);
+    EXPECT_NEAR(size.minCoeff(), tray.width + by_bends, 1e-3);
 }
 
 TEST_F(PartBends, ASkinThatIsAskedForIsLaidWithItsOwnRadius)

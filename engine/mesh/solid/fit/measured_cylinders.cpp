@@ -369,7 +369,10 @@ private:
     bool is_bend(const Region& region) const
     {
         double straight = 0, askew = 0, tangent = 0, goes_on = 0;
-        const double within = 2 * tight(region.cylinder.radius, sheet_.thickness);
+        const double within = 2 * permitted(region.cylinder.radius, sheet_.thickness, rounding_);
+        // Where two bends meet in a mitre the sheet turns sharply from one to the other; into a
+        // corner of drawn sheet it goes over by half a chord.
+        constexpr double mitre = most_turn / 2;
         for (const int f : region.face)
             for (int k = 0; k < 3; ++k) {
                 const int g = neighbour_(k, f);
@@ -378,7 +381,7 @@ private:
                 const Eigen::Vector3d a = at(solid_.triangle(k, f)), b = at(solid_.triangle((k + 1) % 3, f));
                 const double length = (b - a).norm();
                 if ((b - a).cross(region.cylinder.axis).norm() > parallel * length + within) {
-                    askew += length;
+                    askew += turn(f, g) > mitre ? 0 : length;
                     continue;
                 }
                 straight += length;
