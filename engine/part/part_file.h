@@ -75,8 +75,8 @@ struct SolidOrigin {
     /// per face of the file: the cylinder that was measured on it; empty: none was, or a CAD file
     /// states them
     std::vector<StatedSurface> surface = {};
-    /// mm, by how much its corners may lie off their places (coordinate_rounding()), where cylinders
-    /// were searched on them; none: a CAD file states them
+    /// mm, by how much its corners may lie off their places (coordinate_rounding()), where
+    /// cylinders were searched on them; none: a CAD file states them
     std::optional<double> rounding = {};
 };
 

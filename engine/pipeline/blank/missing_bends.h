@@ -4,8 +4,8 @@
 
 namespace spia {
 
-/// Of a mesh whose digits are too few to tell its thinnest bends: a doubt of the table for sheet that
-/// turns around one direction, as a bend does, and is in none of its rows over a cylinder.
+/// Of a mesh whose digits are too few to tell its thinnest bends: a doubt of the table for sheet
+/// that turns around one direction, as a bend does, and is in none of its rows over a cylinder.
 void doubt_missing_bends(const PartFile& part, BendTable& table);
 
 } // namespace spia

@@ -11,8 +11,8 @@
 namespace spia {
 namespace {
 
-/// Per sharp bend of the map the share of its length that a bend of the table is beside: there it is
-/// an edge of a chord, also where the chord counts to the region of the flat beside it.
+/// Per sharp bend of the map the share of its length that a bend of the table is beside: there it
+/// is an edge of a chord, also where the chord counts to the region of the flat beside it.
 std::vector<double> beside_chords(const TriMesh& part, const BendMap& map, const std::vector<int>& bend_of)
 {
     std::map<std::pair<int, int>, std::pair<double, double>> length; // by regions: of all, beside chords

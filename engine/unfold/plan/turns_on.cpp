@@ -83,8 +83,8 @@ private:
                a.axis.cross(b.axis).norm() < share && (b.point - a.point).cross(a.axis).norm() < share * a.radius;
     }
 
-    /// Whether a face beyond an end leaves the plane that touches the cylinder there. @param inner
-    /// what goes on as the zone turns, else any
+    /// Whether a face beyond an end leaves the plane that touches the cylinder there.
+    /// @param inwards_only  towards the axis, as chords that go on; else also away from it
     bool leaves(const BendZone& zone, int f, bool at_end, bool inwards_only) const
     {
         const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);

@@ -60,7 +60,8 @@ double coordinate_rounding(const Eigen::Matrix3Xd& position, double unit)
     const double decimal = std::max({written, decimal_step(x, single), last_digit(x, single)});
     Eigen::Vector3d step;
     for (int axis = 0; axis < 3; ++axis) {
-        // Single precision far from the origin may have been written with more decimals than it has.
+        // Single precision far from the origin may have been written with more decimals than it
+        // has.
         const bool was_single = std::ranges::all_of(x.row(axis).reshaped(), [&](double c) {
             return std::abs(c - double(float(c))) <= written / 2 + twofold * std::abs(c);
         });

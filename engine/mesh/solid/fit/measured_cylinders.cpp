@@ -211,8 +211,8 @@ private:
         return faces;
     }
 
-    /// The cylinder through all strips around a seed: three places tell a radius to a hundredth only
-    /// where the sagitta of a chord is a hundred times what the file's digits move them.
+    /// The cylinder through all strips around a seed: three places tell a radius to a hundredth
+    /// only where the sagitta of a chord is a hundred times what the file's digits move them.
     std::optional<Region> of_strips(const Seed& seed)
     {
         constexpr double sure = 100;
