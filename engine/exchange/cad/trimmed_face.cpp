@@ -107,12 +107,14 @@ Eigen::AlignedBox2d box_of(const TrimLoop& loop)
 
 /// The border of the parts in one direction: both ends, and between them the place nearest to the
 /// middle that no hole is over, if the surface comes back to itself.
-std::vector<double> part_borders(const NurbsSurface& surface, const std::vector<Eigen::AlignedBox2d>& holes, int k)
+/// @param closed  to the last digits: OpenCASCADE gives it a seam then
+std::vector<double> part_borders(const NurbsSurface& surface, const std::vector<Eigen::AlignedBox2d>& holes, int k,
+                                 bool closed)
 {
     const std::vector<double>& knots = k == 0 ? surface.knots_u : surface.knots_v;
     const double from = knots.front(), to = knots.back();
     constexpr int places = 40;
-    if (comes_back(surface, k))
+    if (!closed && comes_back(surface, k))
         for (int n = 0; n < places - 1; ++n) { // to both sides of the middle by turns
             const double at = from + (to - from) * (places / 2 + (n % 2 ? -1 : 1) * (n + 1) / 2) / places;
             if (std::ranges::none_of(
@@ -153,7 +155,8 @@ std::vector<TopoDS_Face> trimmed_faces(const NurbsSurface& surface, std::span<co
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const TrimLoop& loop : holes)
         boxes.push_back(box_of(loop));
-    const std::vector<double> u = part_borders(surface, boxes, 0), v = part_borders(surface, boxes, 1);
+    const std::vector<double> u = part_borders(surface, boxes, 0, geometry->IsUClosed()),
+                              v = part_borders(surface, boxes, 1, geometry->IsVClosed());
     std::vector<TopoDS_Face> faces;
     for (size_t j = 1; j < v.size(); ++j)
         for (size_t i = 1; i < u.size(); ++i) {
