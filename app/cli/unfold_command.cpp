@@ -21,6 +21,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/blank/bend_report.h"
+#include "engine/pipeline/blank/bends_for_shop.h"
 #include "engine/pipeline/blank/part_bends.h"
 #include "engine/pipeline/blank/parts_of_table.h"
 #include "engine/pipeline/blank/sharp_folds.h"
@@ -406,7 +407,7 @@ int unfold(const UnfoldArguments& arguments)
     options.thickness = flat_thickness(arguments.thickness, part);
     if (const std::string text = describe_thickness(arguments.thickness, part); !text.empty())
         say("  note: {}\n", text);
-    BendMap map = find_bends(part.mesh);
+    BendMap map = bends_for_steps(part);
     NeutralFibre fibre = part_bends(part, options.thickness, wanted_k(arguments));
     take_radii(fibre.zone, map);
     print_map(map, fibre.table);

@@ -28,6 +28,14 @@ std::optional<Eigen::Vector3d> plane_of(const PartFile& part, const BendMap& map
     return part.cad->surface[size_t(most->first)].direction;
 }
 
+/// Whether a CAD file states that all faces are planes and cylinders.
+bool is_stated(const PartFile& part)
+{
+    return part.cad && !part.cad->surface.empty() && std::ranges::all_of(part.source_face, [&](int f) {
+               return part.cad->surface[size_t(part.cad->face[size_t(f)])].kind != StatedSurface::Kind::other;
+           });
+}
+
 /// Radians, what CAD faces turn along the edge between two regions, the mean of its ends; nothing
 /// where their normals are not known.
 std::optional<double> stated_turn(const PartFile& part, const BendMap& map, const Bend& fold)
@@ -72,15 +80,30 @@ void leave_out_smooth(const PartFile& part, BendMap& map)
 
 } // namespace
 
+BendMap bends_for_steps(const PartFile& part)
+{
+    BendLimits limits;
+    if (!is_stated(part))
+        return find_bends(part.mesh, limits);
+    double widest = 0; // mm
+    bool flat = false;
+    for (const int f : part.source_face) {
+        const StatedSurface& surface = part.cad->surface[size_t(part.cad->face[size_t(f)])];
+        flat |= surface.kind == StatedSurface::Kind::plane;
+        if (surface.kind == StatedSurface::Kind::cylinder)
+            widest = std::max(widest, surface.radius);
+    }
+    constexpr double below = 0.5; // so that chords of it are above
+    if (flat && widest > 0)
+        limits.curvature = std::min(limits.curvature, below * std::sqrt(area(part.mesh)) / widest);
+    return find_bends(part.mesh, limits);
+}
+
 BendMap bends_for_shop(const PartFile& part)
 {
     BendLimits limits;
     const double sharp = limits.sharp;
-    const bool stated =
-        part.cad && !part.cad->surface.empty() && std::ranges::all_of(part.source_face, [&](int f) {
-            return part.cad->surface[size_t(part.cad->face[size_t(f)])].kind != StatedSurface::Kind::other;
-        });
-    if (!stated) {
+    if (!is_stated(part)) {
         BendMap map = find_bends(part.mesh, limits);
         leave_out_smooth(part, map);
         return map;

@@ -10,6 +10,10 @@ namespace spia {
 /// none where the CAD faces go over into each other, or where it is within one of them.
 BendMap bends_for_shop(const PartFile& part);
 
+/// The bends over which a part is unfolded step by step. Where a CAD file states that all faces are
+/// planes and cylinders, all cylinders are bends, however wide.
+BendMap bends_for_steps(const PartFile& part);
+
 /// Whether bend k is only some of a CAD face, which goes on into sheet that is bent less: a shape
 /// that is rolled or drawn, and not bent along a line.
 bool is_within_a_face(const PartFile& part, const BendMap& map, size_t k);

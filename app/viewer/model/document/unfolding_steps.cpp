@@ -14,6 +14,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/blank/bend_report.h"
+#include "engine/pipeline/blank/bends_for_shop.h"
 #include "engine/pipeline/blank/part_bends.h"
 #include "engine/report/figures/figures.h"
 #include "engine/unfold/automatic_unfolding.h"
@@ -122,7 +123,7 @@ StepList step_list(UnfoldScript steps)
 
 std::shared_ptr<const PartBends> bends_of(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> known)
 {
-    return known && known->part == part ? known : std::make_shared<PartBends>(PartBends{part, find_bends(part->mesh)});
+    return known && known->part == part ? known : std::make_shared<PartBends>(PartBends{part, bends_for_steps(*part)});
 }
 
 FlattenOptions sheet_of_steps(const FlattenOptions& wanted)
