@@ -11,7 +11,7 @@ namespace spia {
 BendMap bends_for_shop(const PartFile& part);
 
 /// The bends over which a part is unfolded step by step. Where a CAD file states that all faces are
-/// planes and cylinders, all cylinders are bends, however wide.
+/// planes and cylinders, cylinders are bends, also wide ones.
 BendMap bends_for_steps(const PartFile& part);
 
 /// Whether bend k is only some of a CAD face, which goes on into sheet that is bent less: a shape
