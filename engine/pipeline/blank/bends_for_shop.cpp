@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/vectors.h"
 
@@ -41,14 +40,7 @@ bool is_stated(const PartFile& part)
 std::optional<double> stated_turn(const PartFile& part, const BendMap& map, const Bend& fold)
 {
     double sum = 0, length = 0;
-    const std::vector<EdgeUse> uses = edge_uses(part.mesh.triangle);
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end != begin + 2)
-            return;
-        const EdgeUse &one = uses[begin], &other = uses[begin + 1];
-        const auto [low, high] = std::minmax(map.label[one.face], map.label[other.face]);
-        if (low != fold.a || high != fold.b)
-            return;
+    for (const auto& [one, other] : edges_of(part.mesh, map, fold)) {
         const double edge = (part.mesh.position.col(one.high) - part.mesh.position.col(one.low)).norm();
         for (const int v : {one.low, one.high}) {
             const auto normal = [&](int f) {
@@ -60,7 +52,7 @@ std::optional<double> stated_turn(const PartFile& part, const BendMap& map, cons
             sum += edge * angle_between(a, b);
             length += edge;
         }
-    });
+    }
     return length > 0 ? std::optional(sum / length) : std::nullopt;
 }
 
@@ -120,6 +112,21 @@ BendMap bends_for_shop(const PartFile& part)
         return std::abs(between - std::abs(bend.angle)) > alike * std::abs(bend.angle);
     });
     return map;
+}
+
+std::vector<std::array<EdgeUse, 2>> edges_of(const TriMesh& part, const BendMap& map, const Bend& fold)
+{
+    std::vector<std::array<EdgeUse, 2>> edges;
+    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end != begin + 2)
+            return;
+        const EdgeUse &one = uses[begin], &other = uses[begin + 1];
+        if (const auto [low, high] = std::minmax(map.label[one.face], map.label[other.face]);
+            low == fold.a && high == fold.b)
+            edges.push_back({one, other});
+    });
+    return edges;
 }
 
 bool is_within_a_face(const PartFile& part, const BendMap& map, size_t k)

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <set>
 
-#include "engine/mesh/edge_uses.h"
 #include "engine/pipeline/blank/bends_for_shop.h"
 #include "engine/pipeline/blank/parts_of_table.h"
 #include "engine/unfold/plan/free_ends.h"
@@ -43,14 +42,7 @@ void place_fold(const TriMesh& part, const BendMap& map, const Bend& fold, Sheet
 {
     std::set<int> faces;
     Eigen::Vector3d low, high;
-    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end != begin + 2)
-            return;
-        const EdgeUse &one = uses[begin], &other = uses[begin + 1];
-        if (const auto labels = std::minmax(map.label[one.face], map.label[other.face]);
-            labels.first != fold.a || labels.second != fold.b)
-            return;
+    for (const auto& [one, other] : edges_of(part, map, fold)) {
         if (faces.empty()) {
             low = high = part.position.col(one.low);
             bend.axis = (part.position.col(one.high) - low).normalized();
@@ -61,7 +53,7 @@ void place_fold(const TriMesh& part, const BendMap& map, const Bend& fold, Sheet
             high = bend.axis.dot(place) > bend.axis.dot(high) ? place : high;
         }
         faces.insert({one.face, other.face});
-    });
+    }
     bend.axis = (high - low).normalized();
     bend.place = (low + high) / 2;
     bend.faces.assign(faces.begin(), faces.end());

@@ -1,6 +1,8 @@
 // A thickness that is not the solid's is a shortcoming.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <utility>
+#include <vector>
 
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/shortcomings/shortcomings.h"
@@ -10,16 +12,22 @@
 
 namespace spia {
 
-TEST(OtherThickness, ThanTheSolidsIsTold)
+/// One bend of 1.2 radians, as a STEP file; solved.
+static Session solved_bracket(double thickness, double inner_radius, std::vector<double> legs, double width)
 {
     const ScratchFolder folder;
     shapes::BentSolid solid;
-    solid.thickness = 2;
-    solid.leg = {40, 30};
-    solid.bend = {{3, 1.2}};
-    solid.width = 30;
+    solid.thickness = thickness;
+    solid.leg = std::move(legs);
+    solid.bend = {{inner_radius, 1.2}};
+    solid.width = width;
     shapes::write_bent_solid(folder / "part.step", solid);
-    Session session = solved_part(folder / "part.step");
+    return solved_part(folder / "part.step");
+}
+
+TEST(OtherThickness, ThanTheSolidsIsTold)
+{
+    Session session = solved_bracket(2, 3, {40, 30}, 30);
     EXPECT_THAT(shortcomings(session), testing::Not(testing::Contains(testing::HasSubstr("mm thick"))));
     session.options.flatten.thickness = 3;
     session = run_stage(Stage::solve, std::move(session));
@@ -29,14 +37,7 @@ TEST(OtherThickness, ThanTheSolidsIsTold)
 
 TEST(OtherThickness, OfThickPlateIsNoQuestionWhereTheFileStatesItsUnit)
 {
-    const ScratchFolder folder;
-    shapes::BentSolid solid;
-    solid.thickness = 38;
-    solid.leg = {400, 300};
-    solid.bend = {{60, 1.2}};
-    solid.width = 500;
-    shapes::write_bent_solid(folder / "part.step", solid);
-    Session session = solved_part(folder / "part.step");
+    Session session = solved_bracket(38, 60, {400, 300}, 500);
     const auto question = testing::Contains(testing::HasSubstr("is that in mm?"));
     EXPECT_THAT(shortcomings(session), testing::Not(question));
     session.options.flatten.thickness = 39; // as a user may have typed it

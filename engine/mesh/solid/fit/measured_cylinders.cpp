@@ -186,6 +186,25 @@ private:
         return most;
     }
 
+    /// Adds those of the skin that can be reached over such as belong to it, the nearest first.
+    /// @param belongs  (triangle, the one that it is reached from)
+    template <class Belongs> void spread(std::vector<int>& faces, size_t most, const Belongs& belongs)
+    {
+        ++walk_;
+        for (const int f : faces)
+            seen_[size_t(f)] = walk_;
+        for (size_t i = 0; i < faces.size() && faces.size() < most; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const int g = neighbour_(k, faces[i]);
+                if (g < 0 || taken_[size_t(g)] || seen_[size_t(g)] == walk_)
+                    continue;
+                seen_[size_t(g)] = walk_;
+                ++visits_;
+                if (belongs(g, faces[i]))
+                    faces.push_back(g);
+            }
+    }
+
     /// Triangles around a seed about as broad as the narrower of its own, as chords of one cylinder
     /// are, that turn around the axis only: the nearest first.
     std::vector<int> strips(const Seed& seed, size_t most)
@@ -195,19 +214,11 @@ private:
         const int first = breadth(seed.f, axis) < breadth(seed.g, axis) ? seed.f : seed.g;
         const double broad = alike * breadth(first, axis);
         std::vector<int> faces{first};
-        seen_[size_t(first)] = ++walk_;
-        for (size_t i = 0; i < faces.size() && faces.size() < most; ++i)
-            for (int k = 0; k < 3; ++k) {
-                const int g = neighbour_(k, faces[i]);
-                if (g < 0 || taken_[size_t(g)] || seen_[size_t(g)] == walk_)
-                    continue;
-                seen_[size_t(g)] = walk_;
-                ++visits_;
-                if (const double wide = breadth(g, axis);
-                    wide < broad && turn(faces[i], g) < most_turn &&
-                    std::abs(normal_.col(g).dot(axis)) < parallel + 2 * rounding_ / wide)
-                    faces.push_back(g);
-            }
+        spread(faces, most, [&](int g, int from) {
+            const double wide = breadth(g, axis);
+            return wide < broad && turn(from, g) < most_turn &&
+                   std::abs(normal_.col(g).dot(axis)) < parallel + 2 * rounding_ / wide;
+        });
         return faces;
     }
 
@@ -249,23 +260,11 @@ private:
     /// Chords that can be reached from some over such, ascending; none if one of those is no chord.
     std::vector<int> reach(const std::vector<int>& from, const FittedCylinder& cylinder, double bulging, double within)
     {
+        const auto chord = [&](int f) { return is_chord(f, cylinder, bulging, within); };
+        if (!std::ranges::all_of(from, chord))
+            return {};
         std::vector<int> faces = from;
-        ++walk_;
-        for (const int f : from) {
-            if (!is_chord(f, cylinder, bulging, within))
-                return {};
-            seen_[size_t(f)] = walk_;
-        }
-        for (size_t i = 0; i < faces.size(); ++i)
-            for (int k = 0; k < 3; ++k) {
-                const int g = neighbour_(k, faces[i]);
-                if (g < 0 || taken_[size_t(g)] || seen_[size_t(g)] == walk_)
-                    continue;
-                seen_[size_t(g)] = walk_;
-                ++visits_;
-                if (is_chord(g, cylinder, bulging, within))
-                    faces.push_back(g);
-            }
+        spread(faces, taken_.size() + 1, [&](int g, int) { return chord(g); });
         std::sort(faces.begin(), faces.end());
         return faces;
     }
