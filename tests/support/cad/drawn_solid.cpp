@@ -200,7 +200,7 @@ void write_conical_sheet(const std::filesystem::path& file, const ConicalSheet& 
                 form);
 }
 
-double write_waved_sheet(const std::filesystem::path& file, std::uint64_t seed, CadForm form)
+void write_waved_sheet(const std::filesystem::path& file, std::uint64_t seed)
 {
     const OcctSession session;
     SeededRandom random(seed);
@@ -227,8 +227,7 @@ double write_waved_sheet(const std::filesystem::path& file, std::uint64_t seed, 
                 BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(),
                                       gp_Vec(0, wave * random.between(0.5, 2), 0))
                     .Shape(),
-                form);
-    return t;
+                CadForm::step);
 }
 
 DrawnSolid write_drawn_solid(const std::filesystem::path& file, std::uint64_t seed, CadForm form)

@@ -36,7 +36,7 @@ struct ConicalSheet {
 void write_conical_sheet(const std::filesystem::path& file, const ConicalSheet& sheet, CadForm form = CadForm::step);
 
 /// A sheet rolled to waves of random length and height: one smooth spline face on either side, bent
-/// nowhere along a line. @returns mm, its thickness
-double write_waved_sheet(const std::filesystem::path& file, std::uint64_t seed, CadForm form = CadForm::step);
+/// nowhere along a line. As a STEP file.
+void write_waved_sheet(const std::filesystem::path& file, std::uint64_t seed);
 
 } // namespace spia::shapes
