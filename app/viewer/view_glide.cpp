@@ -8,10 +8,8 @@ namespace {
 /// Whether an action shows the part from elsewhere.
 bool looks_from_elsewhere(const Action& action)
 {
-    return std::holds_alternative<LookFrom>(action) || std::holds_alternative<LookFromSide>(action) ||
-           std::holds_alternative<FitView>(action) || std::holds_alternative<FlyTo>(action) ||
-           std::holds_alternative<FlyToVertex>(action) || std::holds_alternative<HideSpot>(action) ||
-           std::holds_alternative<HideFault>(action) || std::holds_alternative<ShowFault>(action);
+    return action.is<LookFrom>() || action.is<LookFromSide>() || action.is<FitView>() || action.is<FlyTo>() ||
+           action.is<FlyToVertex>() || action.is<HideSpot>() || action.is<HideFault>() || action.is<ShowFault>();
 }
 
 } // namespace
@@ -19,7 +17,7 @@ bool looks_from_elsewhere(const Action& action)
 void ViewGlide::before(const Action& action)
 {
     const bool elsewhere = looks_from_elsewhere(action);
-    if (!std::holds_alternative<SetViewSettings>(action)) {
+    if (!action.is<SetViewSettings>()) {
         if (way_ && elsewhere && !left_)
             left_ = way_->shown;
         end();

@@ -312,7 +312,7 @@ private:
             if (options_.follow)
                 on_screen_.pushed.emplace(viewer::name(action));
             // a panel changes what it means to change
-            if (auto* settings = std::get_if<SetViewSettings>(&action)) {
+            if (auto* settings = action.as<SetViewSettings>()) {
                 ViewSettings merged = model_.state().view;
                 take_changes(seen, settings->view, merged);
                 settings->view = merged;
@@ -358,7 +358,7 @@ private:
     /// takes the place of the part is read first, see ViewerModel::ask_before_replacing().
     bool ask_first(const Action& action)
     {
-        if (!std::holds_alternative<Quit>(action))
+        if (!action.is<Quit>())
             return false;
         const bool confirmed = std::exchange(ui_.confirmed, false);
         if (model_.state().document.unsaved && model_.state().document.session.part && !options_.exit && !confirmed) {
@@ -385,18 +385,18 @@ private:
         try {
             if (ask_first(action))
                 return;
-            if (std::holds_alternative<ExportFiles>(action))
+            if (action.is<ExportFiles>())
                 ui_.sample_exported = true;
-            const bool opens = std::holds_alternative<OpenPart>(action) || std::holds_alternative<OpenProject>(action);
+            const bool opens = action.is<OpenPart>() || action.is<OpenProject>();
             if (opens)
                 sample_next_ = std::exchange(opening_sample_, false);
-            if (std::get_if<Quit>(&action))
+            if (action.is<Quit>())
                 quit_ = true;
             else if (opens && !options_.exit)
                 kept_.open(model_, action);
             else if (!files_.take(action))
                 model_.apply(action);
-            if (std::holds_alternative<SaveProject>(action) && !model_.state().document.unsaved) {
+            if (action.is<SaveProject>() && !model_.state().document.unsaved) {
                 kept_.forget();
                 remember(model_.state().project);
             }
@@ -466,7 +466,7 @@ private:
         }
         try {
             const auto action = script_.next(model_.state(), model_.busy(), [this] { return report(); });
-            if (action && std::holds_alternative<SetViewSettings>(*action))
+            if (action && action->is<SetViewSettings>())
                 carry_out(*action); // as a whole, of the state now
             else if (action)
                 queue_.push(*action);

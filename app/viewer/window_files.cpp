@@ -19,11 +19,11 @@ WindowFiles::WindowFiles(Renderer& renderer, ViewerModel& model, SceneCache& cac
 
 bool WindowFiles::take(const Action& action)
 {
-    if (const auto* picture = std::get_if<Screenshot>(&action))
+    if (const auto* picture = action.as<Screenshot>())
         later(*picture);
-    else if (const auto* report = std::get_if<WriteReport>(&action))
+    else if (const auto* report = action.as<WriteReport>())
         write_report(*report);
-    else if (const auto* animation = std::get_if<SaveAnimation>(&action))
+    else if (const auto* animation = action.as<SaveAnimation>())
         begin_animation(*animation);
     else
         return false;

@@ -24,7 +24,7 @@ glm::dvec2 corner_on_screen(const Json& report, int corner)
 {
     Json action = report.at("view");
     action["do"] = "set_view";
-    const ViewSettings settings = std::get<SetViewSettings>(action_from_json(action)).view;
+    const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
     const Json &size = report["window"]["views"]["blank"]["size"], &at = report["corners"][size_t(corner)]["blank"];
     const glm::dvec2 pixel(pixel_of(settings.camera[size_t(View::blank)], {at[0].get<double>(), at[1].get<double>(), 0},
                                     {size[0].get<double>(), size[1].get<double>()}));
@@ -277,7 +277,7 @@ TEST_F(Mouse, DragsAControlPointAndALatticePointAndTakesThemBack)
     const auto on_screen = [](const Json& report, const Json& at) {
         Json action = report.at("view");
         action["do"] = "set_view";
-        const ViewSettings settings = std::get<SetViewSettings>(action_from_json(action)).view;
+        const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
         const Json& size = report["window"]["views"]["surface"]["size"];
         const glm::dvec2 pixel(pixel_of(settings.camera[size_t(View::surface)],
                                         {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()},

@@ -70,7 +70,7 @@ glm::dvec2 of_blank(const Json& report, glm::dvec2 at)
 {
     Json action = report.at("view");
     action["do"] = "set_view";
-    const ViewSettings settings = std::get<SetViewSettings>(action_from_json(action)).view;
+    const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
     const Json& size = report["window"]["views"]["blank"]["size"];
     const glm::dvec2 pixel(pixel_of(settings.camera[size_t(View::blank)], {at.x, at.y, 0},
                                     {size[0].get<double>(), size[1].get<double>()}));

@@ -75,7 +75,7 @@ protected:
         const Json report = hands->viewer().report();
         Json action = report.at("view");
         action["do"] = "set_view";
-        const ViewSettings settings = std::get<SetViewSettings>(action_from_json(action)).view;
+        const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
         const std::string called(name(view));
         const Json& size = report["window"]["views"][called]["size"];
         return in_view(called.c_str(), 0, 0) + glm::dvec2(pixel_of(settings.camera[size_t(view)], place,

@@ -50,7 +50,7 @@ Camera camera_of(const Json& report)
 {
     Json action = report.at("view");
     action["do"] = "set_view";
-    return std::get<SetViewSettings>(action_from_json(action)).view.camera[size_t(View::part)];
+    return action_from_json(action).as<SetViewSettings>()->view.camera[size_t(View::part)];
 }
 
 class ViewsByHand : public testing::Test {

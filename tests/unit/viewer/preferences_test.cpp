@@ -8,6 +8,7 @@
 #include "app/viewer/model/jobs/viewer_model.h"
 #include "app/viewer/model/reports/lights.h"
 #include "engine/core/error.h"
+#include "tests/unit/viewer/action_as.h"
 #include "tests/unit/viewer/model_fixture.h"
 #include "tests/unit/viewer/own_home.h"
 
@@ -155,7 +156,7 @@ TEST_F(Preferring, ScriptsChangeSomeOfThem)
     const Action action = action_from_json(Json{{"do", "set_preferences"}, {"lengths", "mm"}}, present, "script");
     Preferences expected = all_changed();
     expected.lengths = LengthUnit::mm;
-    EXPECT_EQ(std::get<SetPreferences>(action).preferences, expected);
+    EXPECT_EQ(as<SetPreferences>(action).preferences, expected);
     EXPECT_THROW(action_from_json(Json{{"do", "set_preferences"}, {"lengths", "cm"}}, present, "script"), InputError);
 }
 

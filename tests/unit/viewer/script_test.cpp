@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "tests/unit/viewer/action_as.h"
 
 namespace spia::viewer {
 namespace {
@@ -27,17 +28,18 @@ std::string script_of(const std::string& steps)
 
 Json json(const char* text) { return parse_json(text, "text"); }
 
-template <class... T> std::vector<Action> one_of_each(std::type_identity<std::variant<T...>>) { return {T{}...}; }
-
 /// Every action once, with values that are not the defaults where its form would refuse these.
 std::vector<Action> every_action()
 {
-    std::vector<Action> actions = one_of_each(std::type_identity<Action>{});
+    std::vector<Action> actions;
+    AllActions::any([&]<class T>(std::type_identity<T>) {
+        actions.push_back(T{});
+        return false;
+    });
     const glm::dvec2 pixel{12.5, 7}, size{640, 480};
     for (Action& action : actions) {
-        const size_t kind = action.index();
-        const auto set = [&](auto value) {
-            if (Action(value).index() == kind)
+        const auto set = [&]<class T>(const T& value) {
+            if (action.is<T>())
                 action = value;
         };
         set(ListFile{"parts/door.stl"});
@@ -130,37 +132,36 @@ TEST(Script, EveryActionComesBackFromItsJson)
         const Json text = to_json(action);
         names.insert(text["do"]);
         const Action back = action_from_json(parse_json(text.dump(), "dump"));
-        EXPECT_EQ(back.index(), action.index()) << text;
+        EXPECT_TRUE(back.same_kind(action)) << text;
         EXPECT_EQ(to_json(back), text);
     }
-    EXPECT_EQ(names.size(), std::variant_size_v<Action>); // no name twice
+    EXPECT_EQ(names.size(), AllActions::count); // no name twice
 }
 
 TEST(Script, MembersCarryTheirValuesIntoTheAction)
 {
-    const auto corner = std::get<SetCorner>(action_from_json(json(R"({"do":"set_corner","corner":2,"vertex":99})")));
+    const auto corner = as<SetCorner>(action_from_json(json(R"({"do":"set_corner","corner":2,"vertex":99})")));
     EXPECT_EQ(corner.corner, 2);
     EXPECT_EQ(corner.vertex, 99);
     EXPECT_FALSE(corner.dragging);
-    const auto area = std::get<PickArea>(action_from_json(
+    const auto area = as<PickArea>(action_from_json(
         json(R"({"do":"pick_area","view":"blank","polygon":[[0,0],[5,0],[5,6]],"size":[20,10],"mode":"add"})")));
     EXPECT_EQ(area.polygon[2], glm::dvec2(5, 6));
     EXPECT_EQ(area.view, View::blank);
     EXPECT_EQ(area.mode, PickMode::add);
-    EXPECT_FALSE(
-        std::get<SetDirection>(action_from_json(json(R"({"do":"set_direction","direction":null})"))).direction);
+    EXPECT_FALSE(as<SetDirection>(action_from_json(json(R"({"do":"set_direction","direction":null})"))).direction);
 }
 
 TEST(Script, OptionsOfFilesCarryTheirValuesAndKeepTheOthers)
 {
-    const auto exported = std::get<ExportFiles>(action_from_json(json(
+    const auto exported = as<ExportFiles>(action_from_json(json(
         R"({"do":"export","folder":"o","formats":["glb"],"options":{"unit":"inch","name":"d","glb":{"blank":false},"csv":{"outline":false}}})")));
     EXPECT_EQ(exported.options,
               (OutputOptions{LengthUnit::inch, "d", {true, false, true, true, true}, {true, false}, {}}));
-    const auto report = std::get<WriteReport>(action_from_json(json(
+    const auto report = as<WriteReport>(action_from_json(json(
         R"({"do":"write_report","file":"r","options":{"title":"t","remarks":"m","pictures":["quads"],"standard_look":false,"tables":{"solver":false}}})")));
     EXPECT_EQ(report.options, (ViewerReportOptions{"t", "m", {View::quads}, false, {true, true, true, false, true}}));
-    const auto picture = std::get<Screenshot>(
+    const auto picture = as<Screenshot>(
         action_from_json(json(R"({"do":"screenshot","file":"p","view":"part","labels":false,"transparent":true})")));
     EXPECT_TRUE(picture.legend && picture.transparent);
     EXPECT_FALSE(picture.labels);
@@ -175,21 +176,20 @@ TEST(Script, WhatIsNotGivenStaysAsItIs)
     state.view.camera[0].height = 77;
     state.document.regions.push_back({"clamp", RegionKind::pad, {0.5f, 0.5f, 0.5f, 1}, {1, 2}});
 
-    const auto grid = std::get<SetGrid>(action_from_json(json(R"({"do":"set_grid","columns":34})"), state)).grid;
+    const auto grid = as<SetGrid>(action_from_json(json(R"({"do":"set_grid","columns":34})"), state)).grid;
     EXPECT_EQ(grid.columns, 34);
     EXPECT_EQ(grid.rows, 21);
     const auto display =
-        std::get<SetDisplay>(action_from_json(json(R"({"do":"set_display","isolines":true})"), state)).display;
+        as<SetDisplay>(action_from_json(json(R"({"do":"set_display","isolines":true})"), state)).display;
     EXPECT_TRUE(display.isolines);
     EXPECT_EQ(display.bands, 9);
     const auto view =
-        std::get<SetViewSettings>(action_from_json(json(R"({"do":"set_view","camera":{"blank":{"height":5}}})"), state))
-            .view;
+        as<SetViewSettings>(action_from_json(json(R"({"do":"set_view","camera":{"blank":{"height":5}}})"), state)).view;
     EXPECT_EQ(view.camera[1].height, 5);
     EXPECT_EQ(view.camera[0].height, 77);
     EXPECT_FALSE(view.dark);
     const auto region =
-        std::get<ChangeRegion>(action_from_json(json(R"({"do":"change_region","region":0,"kind":"binder"})"), state));
+        as<ChangeRegion>(action_from_json(json(R"({"do":"change_region","region":0,"kind":"binder"})"), state));
     EXPECT_EQ(region.name, "clamp");
     EXPECT_EQ(region.kind, RegionKind::binder);
 }
@@ -236,7 +236,7 @@ TEST(Script, ReadsStepsInOrderWithComments)
                                     "s.json");
     ASSERT_EQ(steps.size(), 3u);
     ViewerState state;
-    EXPECT_EQ(std::get<OpenPart>(action(std::get<Perform>(steps[0].what), state, steps[0].place)).file, "a.obj");
+    EXPECT_EQ(as<OpenPart>(action(std::get<Perform>(steps[0].what), state, steps[0].place)).file, "a.obj");
     EXPECT_EQ(std::get<Wait>(steps[1].what).seconds, 5);
     EXPECT_EQ(std::get<Expect>(steps[2].what).at, "/job/running");
     EXPECT_EQ(steps[2].place, "s.json: /actions/2");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/viewer/model/actions/script.h"
+#include "tests/unit/viewer/action_as.h"
 #include "tests/unit/viewer/viewer_samples.h"
 
 namespace spia::viewer {
@@ -82,10 +83,10 @@ TEST(StateReport, ShowsDisplayAndViewAsTheScriptActionsTakeThem)
     state.document.display.range = {{-1, 2}};
     Json display = state_report(state)["display"];
     display["do"] = "set_display";
-    EXPECT_EQ(std::get<SetDisplay>(action_from_json(display)).display.range, state.document.display.range);
+    EXPECT_EQ(as<SetDisplay>(action_from_json(display)).display.range, state.document.display.range);
     Json view = state_report(state)["view"];
     view["do"] = "set_view";
-    EXPECT_EQ(std::get<SetViewSettings>(action_from_json(view)).view.camera, state.view.camera);
+    EXPECT_EQ(as<SetViewSettings>(action_from_json(view)).view.camera, state.view.camera);
 }
 
 } // namespace spia::viewer

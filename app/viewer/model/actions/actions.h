@@ -1,10 +1,11 @@
 #pragma once
+#include <any>
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "app/viewer/model/document/fit_choice.h"
@@ -499,20 +500,58 @@ struct SaveAnimation {
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
-using Action =
-    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
-                 SetMaterial, FitMaterial, SaveMaterial, RemoveMaterial, SetThickness, SetSkins, SetDirection,
-                 SetKFactor, SetCorner, ProposeCorners, SetGrid, SetFit, SetPatches, AddCut, RemoveCut, SetLattice,
-                 PickHandle, SelectHandles, MoveHandles, ResetHandles, OpenDeformation, SaveDeformation, SetLimits,
-                 ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane,
-                 SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices,
-                 PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
-                 MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine,
-                 PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
-                 AddMeasurement, RemoveMeasurement, ClearMeasurements, SetDisplay, SetViewSettings, SetPreferences,
-                 FitView, LookFrom, LookFromSide, FlyTo, HideSpot, FlyToVertex, ShowFault, HideFault, ShowRefused,
-                 CloseRefused, KeepReference, DropReference, Undo, Redo, OpenProject, TakeOpened, DropOpened,
-                 SaveProject, ExportFiles, WriteReport, Screenshot, SaveAnimation, DismissMessages, Quit>;
+/// The kinds of action.
+template <class... T> struct ActionKinds {
+    template <class Kind> static constexpr bool has = (std::is_same_v<Kind, T> || ...);
+    static constexpr size_t count = sizeof...(T);
+    /// Calls visit(std::type_identity<Kind>{}) for one kind after the other until it answers true.
+    /// @returns whether it has
+    template <class Visit> static constexpr bool any(const Visit& visit)
+    {
+        return (visit(std::type_identity<T>{}) || ...);
+    }
+};
+using AllActions =
+    ActionKinds<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
+                SetMaterial, FitMaterial, SaveMaterial, RemoveMaterial, SetThickness, SetSkins, SetDirection,
+                SetKFactor, SetCorner, ProposeCorners, SetGrid, SetFit, SetPatches, AddCut, RemoveCut, SetLattice,
+                PickHandle, SelectHandles, MoveHandles, ResetHandles, OpenDeformation, SaveDeformation, SetLimits,
+                ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane,
+                SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices,
+                PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
+                MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine,
+                PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
+                AddMeasurement, RemoveMeasurement, ClearMeasurements, SetDisplay, SetViewSettings, SetPreferences,
+                FitView, LookFrom, LookFromSide, FlyTo, HideSpot, FlyToVertex, ShowFault, HideFault, ShowRefused,
+                CloseRefused, KeepReference, DropReference, Undo, Redo, OpenProject, TakeOpened, DropOpened,
+                SaveProject, ExportFiles, WriteReport, Screenshot, SaveAnimation, DismissMessages, Quit>;
+
+/// One action of any kind. Not a variant: every file that copies one of a hundred kinds takes 10 s
+/// more to compile.
+class Action {
+public:
+    template <class T>
+    requires(AllActions::has<T>) Action(T action) : kept_(std::move(action)) {}
+    /// @returns the action if it is of this kind, else nullptr
+    template <class T> const T* as() const { return std::any_cast<T>(&kept_); }
+    template <class T> T* as() { return std::any_cast<T>(&kept_); }
+    template <class T> bool is() const { return as<T>() != nullptr; }
+    bool same_kind(const Action& other) const { return kept_.type() == other.kept_.type(); }
+
+private:
+    std::any kept_;
+};
+
+/// Calls visit with the action as what it is.
+template <class Visit> void visit_action(Visit&& visit, const Action& action)
+{
+    AllActions::any([&]<class T>(std::type_identity<T>) {
+        const T* each = action.as<T>();
+        if (each)
+            visit(*each);
+        return each != nullptr;
+    });
+}
 
 /// Actions to come, in order.
 class ActionQueue {

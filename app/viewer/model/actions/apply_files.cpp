@@ -114,7 +114,7 @@ void ViewerModel::apply(const Action& action)
 {
     const int posted_before = messages_posted_, document_before = state_.history.now();
     try {
-        std::visit(Apply{*this}, action);
+        visit_action(Apply{*this}, action);
     } catch (const Busy& error) {
         say(Severity::error, error.what(), about_job());
     } catch (const std::exception& error) {

@@ -38,6 +38,9 @@ template <class T, class Inner, class... M> struct Form {
     std::tuple<M...> members;
 };
 struct Nothing {};
+template <class... Each> struct Forms : Each... {
+};
+template <class... Each> Forms(Each...) -> Forms<Each...>;
 template <class T, class... M> constexpr Form<T, Nothing, M...> form(std::string_view name, M... members)
 {
     return {name, nullptr, std::tuple{members...}};
@@ -69,8 +72,8 @@ constexpr auto encloses = [](const std::vector<glm::dvec2>& polygon, const Place
 };
 constexpr Between share{0, 1}, pixels{0, 16384};
 
-// Every action, in the order of the variant.
-constexpr std::tuple forms{
+// Every action.
+constexpr Forms forms{
     form<ListFile>("list_file", required("file", &ListFile::file, not_empty), member("again", &ListFile::again)),
     form<CloseList>("close_list"),
     form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit),
@@ -224,23 +227,12 @@ constexpr std::tuple forms{
     form<DismissMessages>("dismiss_messages"),
     form<Quit>("quit")};
 
-template <class T>
-constexpr size_t place_in_variant = [] {
-    return []<class... Each>(std::type_identity<std::variant<Each...>>) {
-        size_t i = 0;
-        (void)((std::is_same_v<T, Each> || (++i, false)) || ...);
-        return i;
-    }(std::type_identity<Action>{});
-}();
-template <class T> constexpr const auto& form_of = std::get<place_in_variant<T>>(forms);
-
-/// Calls visit(T{}) for every kind of action until it answers true.
-template <class Visit> bool any_action(const Visit& visit)
+template <class T, class Inner, class... M>
+constexpr const Form<T, Inner, M...>& form_among(const Form<T, Inner, M...>& form)
 {
-    return [&]<class... T>(std::type_identity<std::variant<T...>>) {
-        return (visit(T{}) || ...);
-    }(std::type_identity<Action>{});
+    return form;
 }
+template <class T> constexpr const auto& form_of = form_among<T>(forms);
 
 /// What has the members: the action, or the struct in it.
 template <class T, class Inner, class... M> auto& holder(const Form<T, Inner, M...>& form, auto& action)
@@ -302,7 +294,7 @@ template <class T> T read_action(const Json& json, const ViewerState& base, cons
 std::string known_actions()
 {
     std::string list = "wait, expect";
-    any_action([&]<class T>(const T&) {
+    AllActions::any([&]<class T>(std::type_identity<T>) {
         list += fmt::format(", {}", form_of<T>.name);
         return false;
     });
@@ -320,16 +312,15 @@ std::string name_of_step(const Json& json, const Place& place)
 Action read_any_action(const Json& json, const ViewerState& base, const Place& place)
 {
     const std::string name = name_of_step(json, place);
-    Action action;
-    const bool known = any_action([&]<class T>(const T&) {
-        if (form_of<T>.name != name)
-            return false;
-        action = read_action<T>(json, base, place);
-        return true;
+    std::optional<Action> action;
+    AllActions::any([&]<class T>(std::type_identity<T>) {
+        if (form_of<T>.name == name)
+            action = read_action<T>(json, base, place);
+        return action.has_value();
     });
-    if (!known)
+    if (!action)
         place.fail(fmt::format("is no action: \"{}\"; there are: {}", name, known_actions()));
-    return action;
+    return *action;
 }
 
 Expect read_expect(const Json& json, const Place& place)
@@ -428,19 +419,22 @@ Action action_from_json(const Json& json)
 
 std::string_view name(const Action& action)
 {
-    return std::visit([]<class T>(const T&) -> std::string_view { return form_of<T>.name; }, action);
+    std::string_view name;
+    visit_action([&]<class T>(const T&) { name = form_of<T>.name; }, action);
+    return name;
 }
 
 Json to_json(const Action& action)
 {
-    return std::visit(
-        []<class T>(const T& each) {
+    Json json;
+    visit_action(
+        [&]<class T>(const T& each) {
             constexpr const auto& form = form_of<T>;
-            Json json = {{"do", form.name}};
+            json = {{"do", form.name}};
             write_members(holder(form, each), form.members, json);
-            return json;
         },
         action);
+    return json;
 }
 
 std::vector<Step> parse_script(const std::filesystem::path& file)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fmt/chrono.h>
 #include <utility>
-#include <variant>
 
 #include "engine/core/error.h"
 
@@ -96,7 +95,7 @@ void KeptWork::open(ViewerModel& model, const Action& action)
     if (leaves_work)
         writing_ = write(document, view, project);
     coming_ = Coming{documents, had_part, {}};
-    const auto* opened = std::get_if<OpenProject>(&action);
+    const auto* opened = action.as<OpenProject>();
     if (opened && recovering_ && opened->file == recovering_->file())
         coming_->recovers = std::move(recovering_);
     recovering_.reset();
