@@ -23,7 +23,7 @@ namespace spia {
 struct FaceValues {
     Eigen::VectorXd value;         ///< one per face, in the unit of the field; noise is 0. Empty:
                                    ///< no field
-    Eigen::VectorXd order;         ///< of the faces where a field of yes and no says yes, the
+    Eigen::VectorXd order = {};    ///< of the faces where a field of yes and no says yes, the
                                    ///< greatest is the worst; empty: it has numbers of its own
     int least = -1, greatest = -1; ///< faces; -1: no value is a number
     std::array<double, 2> extremes() const
