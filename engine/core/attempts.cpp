@@ -4,6 +4,8 @@
 #include <chrono>
 #include <optional>
 
+#include "engine/core/error.h"
+
 namespace spia {
 namespace {
 
@@ -11,6 +13,21 @@ const std::string& reason_within(const std::vector<AttemptReport>& made)
 {
     const auto winner = std::find_if(made.begin(), made.end(), [](const AttemptReport& each) { return each.won; });
     return (winner != made.end() ? *winner : made.back()).reason;
+}
+
+bool run(const PlannedAttempt& attempt, AttemptReport& report)
+{
+    if (!attempt.may_refuse)
+        return attempt.run(report);
+    try {
+        return attempt.run(report);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        report.reason = error.what();
+        report.refused = true;
+        return false;
+    }
 }
 
 } // namespace
@@ -25,7 +42,7 @@ std::vector<AttemptReport> try_in_order(const std::vector<PlannedAttempt>& attem
             continue;
         const auto begin = Clock::now();
         AttemptReport report{attempt.name};
-        const bool kept = attempt.run(report);
+        const bool kept = run(attempt, report);
         if (report.reason.empty() && !report.within.empty())
             report.reason = reason_within(report.within);
         report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

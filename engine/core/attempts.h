@@ -12,6 +12,7 @@ struct AttemptReport {
     double seconds = 0;                     ///< with all within
     bool won = false;                       ///< its result is the one that was given
     std::vector<AttemptReport> within = {}; ///< attempts that it is made of
+    bool refused = false;                   ///< it ended with an Error, which is the reason
 };
 
 /// A row of a table of attempts, those that give the better result or cost less first. They know by
@@ -25,9 +26,11 @@ struct PlannedAttempt {
     std::function<bool(AttemptReport& report)> run;
     std::function<bool()> accept = {}; ///< whether what is kept now will do, and no other is tried;
                                        ///< none: it will
+    bool may_refuse = false;           ///< an Error that run throws is its reason, and the next is tried
 };
 
 /// Makes the attempts in their order, until what one has kept will do.
+/// @throws what an attempt throws that may not refuse; Cancelled always
 /// @returns those that were made; the last that has kept its result has won
 std::vector<AttemptReport> try_in_order(const std::vector<PlannedAttempt>& attempts);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/core.h>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -152,51 +153,36 @@ public:
     /// @returns whether it is the best so far
     bool try_division(const Division& division, AttemptReport& own, const Progress& progress)
     {
-        try {
-            Layout divided = division.simplified ? simplified(division.layout, progress.part(0, 0.4))
-                                                 : make_layout(part_, blank_, division.layout, progress.part(0, 0.1));
-            if (same(divided, last_)) {
-                own.reason = "the same patches as before";
-                return false;
-            }
-            last_ = divided;
-            PatchesFitOptions fitting = options_;
-            if (compares(division))
-                fitting.max_control_points = std::min(options_.max_control_points, worth_.control_points);
-            // More: the patches are too large for the tolerance, and knots in their strips dear.
-            constexpr int most_of_a_patch = 500, dearest_shape = 2;
-            if (betters_shape(division))
-                fitting.max_control_points =
-                    std::min(options_.max_control_points, dearest_shape * worth_.control_points);
-            else if (division.simplified && !compares(division))
-                fitting.max_control_points =
-                    std::min(fitting.max_control_points, most_of_a_patch * int(divided.patch.size()));
-            PatchesFit fit = fit_patches(part_, blank_, divided, fitting, progress.part(0.4, 1));
-            const Worth now = worth_of(fit, progress.part(1, 1));
-            own.within = std::move(fit.attempts);
-            own.reason = describe(now, divided.patch.size());
-            if (best_ && !now.better_than(worth_))
-                return false;
-            best_ = std::move(fit);
-            best_is_simplified_ = division.simplified;
-            worth_ = now;
-            return true;
-        } catch (const InputError& error) {
-            own.reason = error.what();
-            if (!first_ || first_is_of_simplified_ || division.without_edges) {
-                first_ = error; // what is in the way of the plainest division says most
-                first_is_of_simplified_ = division.simplified;
-            }
+        Layout divided = division.simplified ? simplified(division.layout, progress.part(0, 0.4), own)
+                                             : make_layout(part_, blank_, division.layout, progress.part(0, 0.1));
+        if (same(divided, last_)) {
+            own.reason = "the same patches as before";
             return false;
         }
+        last_ = divided;
+        PatchesFitOptions fitting = options_;
+        if (compares(division))
+            fitting.max_control_points = std::min(options_.max_control_points, worth_.control_points);
+        // More: the patches are too large for the tolerance, and knots in their strips dear.
+        constexpr int most_of_a_patch = 500, dearest_shape = 2;
+        if (betters_shape(division))
+            fitting.max_control_points = std::min(options_.max_control_points, dearest_shape * worth_.control_points);
+        else if (division.simplified && !compares(division))
+            fitting.max_control_points =
+                std::min(fitting.max_control_points, most_of_a_patch * int(divided.patch.size()));
+        PatchesFit fit = fit_patches(part_, blank_, divided, fitting, progress.part(0.4, 1));
+        const Worth now = worth_of(fit, progress.part(1, 1));
+        std::ranges::move(fit.attempts, std::back_inserter(own.within));
+        own.reason = describe(now, divided.patch.size());
+        if (best_ && !now.better_than(worth_))
+            return false;
+        best_ = std::move(fit);
+        best_is_simplified_ = division.simplified;
+        worth_ = now;
+        return true;
     }
 
-    PatchesFit best()
-    {
-        if (!best_)
-            throw *first_;
-        return std::move(*best_);
-    }
+    std::optional<PatchesFit> best() { return std::move(best_); }
 
 private:
     bool compares(const Division& division) const
@@ -211,21 +197,25 @@ private:
     }
 
     /// From layers, which have no flat corners; where there is no room for them from few patches.
-    Layout simplified(LayoutOptions layout, const Progress& progress) const
+    Layout simplified(LayoutOptions layout, const Progress& progress, AttemptReport& own) const
     {
         SimplifyOptions options;
         // An arc of this radius in the place of a corner is off by the tolerance.
         layout.corner_radius = options.corner_radius = options_.tolerance / (std::numbers::sqrt2 - 1);
         options.corner_deg = layout.corner_deg;
-        std::optional<Layout> start;
-        try {
-            start = make_layout(part_, blank_, layout, progress.part(0, 0.2));
-        } catch (const InputError&) {
-            layout.layers = false;
-            options.refine = true;
-            start = make_layout(part_, blank_, layout, progress.part(0, 0.2));
-        }
-        return simplify_layout(*start, options, progress.part(0.2, 1));
+        Layout start;
+        const auto lay = [&](bool layers) {
+            return [&, layers](AttemptReport&) {
+                layout.layers = layers;
+                options.refine = !layers;
+                start = make_layout(part_, blank_, layout, progress.part(0, 0.2));
+                return true;
+            };
+        };
+        PlannedAttempt layers{"starting from layers", {}, lay(true)}, few{"starting from few patches", {}, lay(false)};
+        layers.may_refuse = true;
+        own.within = try_in_order({layers, few});
+        return simplify_layout(start, options, progress.part(0.2, 1));
     }
 
     const TriMesh& part_;
@@ -233,11 +223,28 @@ private:
     const PatchesFitOptions& options_;
     std::optional<PatchesFit> best_;
     bool best_is_simplified_ = false;
-    std::optional<InputError> first_;
-    bool first_is_of_simplified_ = false;
     Worth worth_; ///< of the best
     Layout last_;
 };
+
+/// What is in the way of the plainest division, which says most.
+/// @param made  of the divisions in their order, some left out
+const std::string& telling_refusal(const std::vector<Division>& divisions, const std::vector<AttemptReport>& made)
+{
+    const AttemptReport* result = nullptr;
+    bool of_simplified = false;
+    auto attempt = made.begin();
+    for (const Division& division : divisions) {
+        if (attempt == made.end() || attempt->name != division.name)
+            continue;
+        if (attempt->refused && (!result || of_simplified || division.without_edges)) {
+            result = &*attempt;
+            of_simplified = division.simplified;
+        }
+        ++attempt;
+    }
+    return result->reason;
+}
 
 PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
                         const PatchesFitOptions& options, const Progress& progress)
@@ -253,11 +260,14 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
                                 return search.try_division(division[k], own,
                                                            progress.part(double(k) / count, double(k + 1) / count));
                             },
-                            [] { return false; }}); // the others are not worth_trying() then
+                            [] { return false; }, // the others are not worth_trying() then
+                            true});
     std::vector<AttemptReport> made = try_in_order(attempts);
-    PatchesFit best = search.best();
-    best.attempts = std::move(made);
-    return best;
+    std::optional<PatchesFit> best = search.best();
+    if (!best)
+        throw InputError(telling_refusal(division, made));
+    best->attempts = std::move(made);
+    return std::move(*best);
 }
 
 } // namespace

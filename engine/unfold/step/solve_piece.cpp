@@ -1,6 +1,6 @@
 #include "engine/unfold/step/solve_piece.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -70,15 +70,22 @@ SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, con
     FlattenOptions seen = options;
     const Eigen::Vector3d normal = plane->axes.col(0).cross(plane->axes.col(1));
     seen.direction = normal;
-    const auto solved = [&] {
-        if (const std::optional<Eigen::Matrix2Xd> start = seen_start(piece, now, normal))
-            try {
-                return flatten_from(piece.mesh, *start, seen, progress);
-            } catch (const SolveError&) { // steps may leave a state from which there is no way on
-            }
-        return flatten(piece.mesh, seen, progress);
+    const std::optional<Eigen::Matrix2Xd> start = seen_start(piece, now, normal);
+    FlattenResult flat;
+    const auto from_seen = [&](AttemptReport&) {
+        flat = flatten_from(piece.mesh, *start, seen, progress);
+        return true;
     };
-    FlattenResult flat = solved();
+    const auto anew = [&](AttemptReport&) {
+        flat = flatten(piece.mesh, seen, progress);
+        return true;
+    };
+    // Steps may leave a state from which there is no way on.
+    const std::vector<AttemptReport> made =
+        try_in_order({{"from where it is seen", [&] { return start.has_value(); }, from_seen, {}, true},
+                      {"from a start of its own", {}, anew}});
+    if (made.front().refused)
+        flat.report.attempts.insert(flat.report.attempts.begin(), made.front());
     const Eigen::Vector3d height = normal * normal.dot(plane->origin);
     return {(blank_plane(flat.stamping.direction) * flat.blank.position).colwise() + height, std::move(flat.face),
             std::move(flat.report)};

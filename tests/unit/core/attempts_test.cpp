@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
+#include "engine/core/error.h"
+
 namespace spia {
 namespace {
 
@@ -105,6 +107,32 @@ TEST(Attempts, PassOnWhatIsThrown)
     const std::vector<PlannedAttempt> broken = {
         {"broken", {}, [](AttemptReport&) -> bool { throw std::runtime_error("no way"); }}};
     EXPECT_THROW(try_in_order(broken), std::runtime_error);
+}
+
+TEST(Attempts, ThatMayRefuseGiveTheErrorAsTheirReason)
+{
+    Search search;
+    PlannedAttempt refuses{"refuses", {}, [](AttemptReport&) -> bool { throw SolveError("no way on"); }};
+    EXPECT_THROW(try_in_order({refuses, search.give(3)}), SolveError);
+    EXPECT_TRUE(search.run.empty());
+    refuses.may_refuse = true;
+    const auto made = try_in_order({refuses, search.give(3)});
+    ASSERT_EQ(made.size(), 2u);
+    EXPECT_TRUE(made[0].refused);
+    EXPECT_FALSE(made[0].won);
+    EXPECT_EQ(made[0].reason, "no way on");
+    EXPECT_FALSE(made[1].refused);
+    EXPECT_TRUE(made[1].won);
+    EXPECT_EQ(try_in_order({refuses}).size(), 1u); // whose caller sees that nothing was kept
+}
+
+TEST(Attempts, AreNotGoneOnWithOnceTheUserHasCancelled)
+{
+    Search search;
+    PlannedAttempt cancelled{"cancelled", {}, [](AttemptReport&) -> bool { throw Cancelled(); }};
+    cancelled.may_refuse = true;
+    EXPECT_THROW(try_in_order({cancelled, search.give(3)}), Cancelled);
+    EXPECT_TRUE(search.run.empty());
 }
 
 } // namespace spia
