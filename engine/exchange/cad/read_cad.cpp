@@ -71,8 +71,11 @@ double diagonal_of(const TopoDS_Shape& shape)
 std::vector<int> overlapping(const CadContent& cad, double tolerance)
 {
     const Weld joined = weld(cad.soup, tolerance);
-    const std::vector<EdgeUse> uses = edge_uses(
-        cad.soup.polygons(), [&](int t, int k) { return joined.same_as[size_t(cad.soup.polygon(t)[size_t(k)])]; });
+    Eigen::Matrix3Xi triangle(3, cad.soup.polygons());
+    for (int t = 0; t < cad.soup.polygons(); ++t)
+        for (int k = 0; k < 3; ++k)
+            triangle(k, t) = joined.same_as[size_t(cad.soup.polygon(t)[size_t(k)])];
+    const std::vector<EdgeUse> uses = edge_uses(triangle);
     std::set<int> faces;
     for_each_edge(uses, [&](size_t begin, size_t end) {
         if (uses[begin].low != uses[begin].high && end - begin > 2)
