@@ -1,6 +1,5 @@
 #include "app/viewer/animation.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -10,6 +9,7 @@
 #include "app/viewer/views/colour_scale.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
+#include "engine/core/small_dense.h"
 #include "engine/mesh/topology.h"
 #include "engine/report/figures/face_values.h"
 #include "engine/report/text/lengths.h"
@@ -20,7 +20,7 @@ namespace spia::viewer {
 namespace {
 
 /// Flat points in space, turned and moved as near as can be to others of the same number, by least
-/// squares. [W. Kabsch, A solution for the best rotation to relate two sets of vectors, 1976]
+/// squares.
 Eigen::Matrix3Xd laid_beside(const Eigen::Matrix2Xd& flat, const Eigen::Matrix3Xd& part)
 {
     Eigen::Matrix3Xd from = Eigen::Matrix3Xd::Zero(3, flat.cols());
@@ -28,11 +28,7 @@ Eigen::Matrix3Xd laid_beside(const Eigen::Matrix2Xd& flat, const Eigen::Matrix3X
     const Eigen::Vector3d centre = from.rowwise().mean(), there = part.rowwise().mean();
     from.colwise() -= centre;
     const Eigen::Matrix3d covariance = (part.colwise() - there) * from.transpose();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d u = svd.matrixU();
-    if ((u * svd.matrixV().transpose()).determinant() < 0)
-        u.col(2) = -u.col(2);
-    return (u * svd.matrixV().transpose() * from).colwise() + there;
+    return (nearest_rotation(covariance) * from).colwise() + there;
 }
 
 /// Slowly away and slowly there, within each step.

@@ -1,6 +1,6 @@
 #include "engine/compare/abf.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
 #include <fmt/core.h>

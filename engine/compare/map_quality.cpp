@@ -1,6 +1,6 @@
 #include "engine/compare/map_quality.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 

@@ -1,12 +1,12 @@
 #include "engine/coons/carry_field.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <fmt/core.h>
 #include <set>
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/small_sparse.h"
 
 namespace spia {
 
@@ -38,8 +38,8 @@ Eigen::VectorXd over_fill(const FilledMesh& filled, const Eigen::VectorXd& at_ve
         }
     Eigen::SparseMatrix<double> matrix(unknown, unknown);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    if (solver.info() != Eigen::Success)
+    const SparseLdlt solver(matrix);
+    if (!solver.ok())
         throw SolveError("a field cannot be continued over the holes of the part; fill its holes before");
     all.tail(unknown) = solver.solve(right);
     return all;

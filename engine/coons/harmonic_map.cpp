@@ -1,12 +1,12 @@
 #include "engine/coons/harmonic_map.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/core/small_sparse.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/vectors.h"
 
@@ -183,10 +183,10 @@ HarmonicMap harmonic_map(const FilledMesh& filled, const BlankBoundary& boundary
     Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
     matrix.setFromTriplets(entries.begin(), entries.end());
     progress.checkpoint(0.2, "harmonic map: solution");
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
+    const SparseLdlt factor(matrix);
     // Positive definite, since the weights are and every vertex hangs on the sides; only rounding
     // can spoil that.
-    if (factor.info() != Eigen::Success)
+    if (!factor.ok())
         throw SolveError("the harmonic map of the blank could not be factored; remesh the part with better triangles");
     const Eigen::MatrixX2d solution = factor.solve(right);
     for (size_t v = 0; v < unknown.size(); ++v)

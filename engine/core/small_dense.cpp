@@ -35,14 +35,14 @@ Eigen::Matrix4d with_least_eigenvalue(const Eigen::Matrix4d& symmetric, double f
     return raised<4>(symmetric, floor);
 }
 
-Eigen::Vector3d least_squares(const Eigen::MatrixX3d& a, const Eigen::VectorXd& b)
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b)
 {
     return a.colPivHouseholderQr().solve(b);
 }
 
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b)
+Eigen::Vector3d least_squares(const Eigen::MatrixX3d& a, const Eigen::VectorXd& b)
 {
-    return a.colPivHouseholderQr().solve(b);
+    return least_squares(Eigen::MatrixXd(a), b);
 }
 
 Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b)
@@ -53,7 +53,7 @@ Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::Ve
 Eigen::Matrix<double, 6, 1> shortest_least_squares(const Eigen::Matrix<double, Eigen::Dynamic, 6>& a,
                                                    const Eigen::VectorXd& b)
 {
-    return a.completeOrthogonalDecomposition().solve(b);
+    return shortest_least_squares(Eigen::MatrixXd(a), b);
 }
 
 Eigen::Vector3d shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least_share)
@@ -65,7 +65,16 @@ Eigen::Vector3d shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::Ve
 
 Eigen::Vector2d longest_axis(const Eigen::Matrix2Xd& columns)
 {
-    return Eigen::JacobiSVD<Eigen::Matrix2Xd>(columns, Eigen::ComputeThinU).matrixU().col(0);
+    return Eigen::JacobiSVD<Eigen::MatrixXd>(columns, Eigen::ComputeThinU).matrixU().col(0);
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& covariance)
+{
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d u = svd.matrixU();
+    if ((u * svd.matrixV().transpose()).determinant() < 0)
+        u.col(2) = -u.col(2);
+    return u * svd.matrixV().transpose();
 }
 
 } // namespace spia

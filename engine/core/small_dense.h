@@ -40,4 +40,9 @@ Eigen::Vector3d shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::Ve
 /// The direction, of unit length, in which such columns are longest, in the least squares sense.
 Eigen::Vector2d longest_axis(const Eigen::Matrix2Xd& columns);
 
+/// The rotation R by which places y_i are nearest to R x_i, by least squares.
+/// [W. Kabsch, A solution for the best rotation to relate two sets of vectors, 1976]
+/// @param covariance  sum of y_i x_i^T, both about their middles
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& covariance);
+
 } // namespace spia

@@ -1,6 +1,5 @@
 #include "engine/forming/flatten.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <chrono>
 #include <cmath>

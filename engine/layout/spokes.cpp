@@ -1,10 +1,9 @@
 #include "engine/layout/spokes.h"
 
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/small_sparse.h"
 #include "engine/layout/plane_lines.h"
 #include "engine/mesh/locate.h"
 #include "engine/mesh/mesh_polygon.h"
@@ -81,8 +80,7 @@ Eigen::Matrix2Xd disc(const PlanarMesh& mesh, const Eigen::Matrix2Xd& border)
     if (free > 0) {
         Eigen::SparseMatrix<double> matrix(free, free);
         matrix.setFromTriplets(entries.begin(), entries.end());
-        result.rightCols(free) =
-            Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(Eigen::MatrixXd(right)).transpose();
+        result.rightCols(free) = SparseLdlt(matrix).solve(right).transpose();
     }
     return result;
 }

@@ -1,7 +1,6 @@
 #include "engine/mesh/fill_holes.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <numeric>
 
 #include "engine/core/error.h"
+#include "engine/core/small_sparse.h"
 #include "engine/mesh/mesh_polygon.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/vectors.h"
@@ -185,8 +185,8 @@ void place_in_space(FilledMesh& filled, const std::vector<char>& free, const std
     laplacian = scale.asDiagonal() * laplacian;
     right = scale.asDiagonal() * right;
     const Eigen::SparseMatrix<double> normal = laplacian.transpose() * laplacian;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
-    if (factor.info() != Eigen::Success)
+    const SparseLdlt factor(normal);
+    if (!factor.ok())
         throw InputError("the holes of the part could not be filled smoothly: their edges have no extent in the "
                          "blank; close the slits of the part first");
     Eigen::MatrixX3d solution = factor.solve(laplacian.transpose() * right);

@@ -1,6 +1,7 @@
 #include "engine/mesh/region.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -1,11 +1,12 @@
 #include "engine/nurbs/interpolate.h"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/small_sparse.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/end_tangent.h"
 #include "engine/nurbs/point_rows.h"
@@ -156,11 +157,11 @@ public:
                     end_derivative_weights(parameters, std::min(degree + 1, points_), i == 0) / largest;
         }
         matrix.setFromTriplets(entries.begin(), entries.end());
-        lu_.compute(matrix);
+        lu_.emplace(matrix);
         // Every parameter lies in the support of its function, so that the matrix is regular
         // (Schoenberg-Whitney).
-        if (lu_.info() != Eigen::Success)
-            throw SolveError("the interpolation matrix is singular: " + lu_.lastErrorMessage());
+        if (!lu_->ok())
+            throw SolveError("the interpolation matrix is singular");
     }
 
     /// Points (i, j), i fastest, of `width` curves that run along j, to their control points in the
@@ -176,7 +177,7 @@ public:
             right.row(1) += tangent_start_[k] * rows.col(k).transpose();
             right.row(count - 2) += tangent_end_[k] * rows.col(points_ - 1 - k).transpose();
         }
-        const Eigen::MatrixXd solution = lu_.solve(right);
+        const Eigen::MatrixXd solution = lu_->solve(right);
         Eigen::Matrix3Xd control(3, width * count);
         Eigen::Map<Eigen::MatrixXd>(control.data(), 3 * width, count) = solution.transpose();
         return control;
@@ -201,7 +202,7 @@ private:
     int points_;
     Eigen::VectorXd tangent_start_, tangent_end_; ///< clamped: weights of the points in the right
                                                   ///< side's end rows
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu_;
+    std::optional<SparseLu> lu_;
 };
 
 void require_possible(const InterpolateOptions& options)

@@ -1,13 +1,12 @@
 #include "engine/nurbs/patch_field.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/small_sparse.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
 
@@ -55,10 +54,10 @@ Eigen::MatrixXd least_squares(const Sparse& N, const Eigen::MatrixXd& values)
     const Sparse normal = Sparse(N.transpose() * N) + smoothing * Sparse(second.transpose() * second);
     const Eigen::MatrixXd right =
         N.transpose() * values - normal.col(0) * result.row(0) - normal.col(count - 1) * result.row(count - 1);
-    Eigen::SimplicialLDLT<Sparse> solver(Sparse(normal.block(1, 1, inner, inner)));
-    if (solver.info() != Eigen::Success)
+    const SparseLdlt solver(Sparse(normal.block(1, 1, inner, inner)));
+    if (!solver.ok())
         throw SolveError("the control values of a field are not determined; make a finer grid");
-    result.middleRows(1, inner) = solver.solve(Eigen::MatrixXd(right.middleRows(1, inner)));
+    result.middleRows(1, inner) = solver.solve(right.middleRows(1, inner));
     return result;
 }
 
@@ -69,8 +68,8 @@ Eigen::MatrixXd control_values(const std::vector<double>& knots, int degree, con
     const Sparse N = basis_matrix(knots, degree, parameters);
     if (N.rows() != N.cols())
         return least_squares(N, values);
-    Eigen::SparseLU<Sparse> solver(N);
-    if (solver.info() != Eigen::Success)
+    const SparseLu solver(N);
+    if (!solver.ok())
         return least_squares(N, values); // as many, but not where the knots want them
                                          // (Schoenberg-Whitney)
     return solver.solve(values);

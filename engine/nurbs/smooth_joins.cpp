@@ -1,7 +1,6 @@
 #include "engine/nurbs/smooth_joins.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/small_sparse.h"
 #include "engine/nurbs/basis.h"
 
 namespace spia {
@@ -261,9 +261,9 @@ private:
         Eigen::SparseMatrix<double> matrix = rows.transpose() * rows;
         for (int i = 0; i < 3 * free_; ++i)
             matrix.coeffRef(i, i) += of_move;
-        const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
+        const SparseLdlt factor(matrix);
         Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, control.cols());
-        if (factor.info() != Eigen::Success)
+        if (!factor.ok())
             throw SolveError("the joins of the patches could not be smoothed: their equations have no solution");
         const Eigen::VectorXd step = factor.solve(right);
         for (size_t n = 0; n < unknown_.size(); ++n)

@@ -1,6 +1,5 @@
 // The five cases of an independent one-dimensional code (principle of virtual work along the
 // meridian, 8001 nodes).
-#include <Eigen/Dense>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>

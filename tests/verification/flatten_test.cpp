@@ -1,6 +1,6 @@
 #include "engine/forming/flatten.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <oneapi/tbb/global_control.h>

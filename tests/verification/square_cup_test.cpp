@@ -1,4 +1,3 @@
-#include <Eigen/Dense>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>

@@ -1,6 +1,7 @@
 #include "app/viewer/views/strain_glyphs.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,5 @@
 #include "engine/exchange/lines/outline_curves.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "engine/forming/material/fit_hardening.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>

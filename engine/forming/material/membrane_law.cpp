@@ -1,6 +1,7 @@
 #include "engine/forming/material/membrane_law.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 
 namespace spia {

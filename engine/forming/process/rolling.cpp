@@ -1,6 +1,6 @@
 #include "engine/forming/process/rolling.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <complex>
 

@@ -1,6 +1,6 @@
 #include "engine/forming/solver/energy_stage.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>

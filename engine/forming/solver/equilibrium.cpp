@@ -1,6 +1,6 @@
 #include "engine/forming/solver/equilibrium.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <fmt/core.h>
 #include <numeric>

@@ -1,12 +1,13 @@
 #include "engine/forming/solver/initial_guess.h"
 
-#include <Eigen/Dense>
-#include <Eigen/SparseLU>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/small_sparse.h"
 #include "engine/forming/solver/flips.h"
 #include "engine/mesh/topology.h"
 
@@ -144,8 +145,8 @@ Eigen::Matrix2Xd harmonic(const TriMesh& part)
         entry.emplace_back(i, i, 1.0);
     Eigen::SparseMatrix<double> A(unknowns, unknowns);
     A.setFromTriplets(entry.begin(), entry.end());
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(A);
-    if (solver.info() != Eigen::Success)
+    const SparseLu solver(A);
+    if (!solver.ok())
         throw SolveError("the harmonic start could not be factored");
     const Eigen::MatrixX2d x = solver.solve(right);
     for (int v = 0; v < all; ++v)

@@ -1,6 +1,8 @@
 #include "engine/forming/solver/membrane.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <fmt/core.h>
 

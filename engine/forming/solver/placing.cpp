@@ -1,6 +1,6 @@
 #include "engine/forming/solver/placing.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace spia {

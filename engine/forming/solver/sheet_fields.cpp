@@ -1,7 +1,5 @@
 #include "engine/forming/solver/sheet_fields.h"
 
-#include <Eigen/Dense>
-
 #include "engine/core/parallel.h"
 #include "engine/core/small_dense.h"
 

@@ -1,6 +1,7 @@
 #include "engine/forming/solver/skin_strain.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #include "engine/forming/solver/stages.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>

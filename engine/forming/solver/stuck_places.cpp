@@ -1,10 +1,11 @@
 #include "engine/forming/solver/stuck_places.h"
 
-#include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <map>
 
+#include "engine/core/small_sparse.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/topology.h"
 
@@ -90,8 +91,7 @@ std::map<int, double> lengths_outwards(const TriMesh& part, const std::vector<El
     }
     Eigen::SparseMatrix<double> matrix(rows, rows);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-    const Eigen::VectorXd length = factor.solve(right);
+    const Eigen::VectorXd length = SparseLdlt(matrix).solve(right);
     std::map<int, double> result{{middle, 0}};
     for (const auto& [v, number] : row)
         result[v] = length[number];

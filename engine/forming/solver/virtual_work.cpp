@@ -1,6 +1,7 @@
 #include "engine/forming/solver/virtual_work.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,5 @@
 #include "engine/pipeline/blank/missing_bends.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/place_text.h"
+#include "engine/core/small_dense.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
@@ -58,12 +58,12 @@ bool is_bent(const Eigen::Matrix3Xd& normal, const std::vector<TurningEdge>& edg
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
     for (const int f : faces)
         scatter += normal.col(f) * normal.col(f).transpose() / normal.col(f).norm();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter); // the least comes first
-    constexpr double askew = 0.05, turned = 5 * degree;                 // the sine of 3 degrees
+    const EigenPairs<3> axes = eigen_pairs(scatter);
+    constexpr double askew = 0.05, turned = 5 * degree; // the sine of 3 degrees
     const double turn = std::sin(turned / 2) * std::sin(turned / 2);
-    if (axes.eigenvalues()[0] > askew * askew * scatter.trace() || axes.eigenvalues()[1] < turn * scatter.trace())
+    if (axes.value[0] > askew * askew * scatter.trace() || axes.value[1] < turn * scatter.trace())
         return false;
-    const Eigen::Vector3d axis = axes.eigenvectors().col(0);
+    const Eigen::Vector3d axis = axes.vector.col(0);
     return std::ranges::any_of(edges, [&](const TurningEdge& edge) {
         return (edge.middle - edges.front().middle).cross(axis).norm() > apart;
     });

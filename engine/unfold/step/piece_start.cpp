@@ -1,6 +1,5 @@
 #include "engine/unfold/step/piece_start.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>

@@ -1,6 +1,6 @@
 #include "engine/unfold/step/polish.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "engine/unfold/step/ring_chart.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "engine/unfold/step/ring_start.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/angle.h"
+#include "engine/core/small_sparse.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 
@@ -57,7 +57,7 @@ Eigen::VectorXd harmonic(const std::vector<std::array<int, 2>>& edges, const Eig
         }
     Eigen::SparseMatrix<double> matrix(rows, rows);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::VectorXd solved = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
+    const Eigen::VectorXd solved = SparseLdlt(matrix).solve(right);
     for (size_t v = 0; v < given.size(); ++v)
         if (row[v] >= 0)
             value[Eigen::Index(v)] = solved[row[v]];

@@ -1,6 +1,7 @@
 #include "engine/unfold/step/stepped_blank.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 #include "engine/unfold/step/unfold_step.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>

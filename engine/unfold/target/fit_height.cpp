@@ -1,7 +1,6 @@
 #include "engine/unfold/target/fit_height.h"
 
-#include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/small_dense.h"
+#include "engine/core/small_sparse.h"
 #include "engine/unfold/target/height_spline.h"
 
 namespace spia {
@@ -123,8 +123,8 @@ std::optional<TargetFit> fit_height(const TriMesh& part, const std::vector<int>&
                 entry.emplace_back(unknown(cell, k), unknown(cell, l), local[size_t(cell)](k, l) + plate(k, l));
     Eigen::SparseMatrix<double> A(nx * ny, nx * ny);
     A.setFromTriplets(entry.begin(), entry.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(A);
-    if (solver.info() != Eigen::Success)
+    const SparseLdlt solver(A);
+    if (!solver.ok())
         throw SolveError("the smooth face through the fixed region could not be factored");
     face.coefficient = solver.solve(right).reshaped(nx, ny);
 

@@ -1,6 +1,6 @@
 #include "engine/unfold/target/fit_target.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>

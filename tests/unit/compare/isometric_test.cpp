@@ -1,5 +1,4 @@
 // ARAP and SLIM.
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <random>
 

@@ -1,6 +1,6 @@
 #include "engine/compare/lscm.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"

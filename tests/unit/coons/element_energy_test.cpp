@@ -1,9 +1,10 @@
 #include "engine/coons/element_energy.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+
+#include "engine/core/small_dense.h"
 
 namespace spia {
 
@@ -44,9 +45,9 @@ TEST(ElementEnergy, DerivativesAreThoseOfTheValue)
                 energy.derivatives(J - step, behind, ignored);
                 expected.col(k) = (ahead - behind) / (2 * h);
             }
-            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(expected);
+            const EigenPairs<4> eigen = eigen_pairs(expected);
             const Eigen::Matrix4d clamped =
-                eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+                eigen.vector * eigen.value.cwiseMax(0).asDiagonal() * eigen.vector.transpose();
             EXPECT_LT((hessian - clamped).cwiseAbs().maxCoeff(), 1e-6 * expected.norm());
         }
 }

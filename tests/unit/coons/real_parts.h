@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/small_sparse.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/tri_mesh.h"
 
@@ -106,8 +106,7 @@ inline Eigen::Matrix2Xd onto_a_disk(const TriMesh& part, double radius)
         }
     Eigen::SparseMatrix<double> matrix(total, total);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-    const Eigen::MatrixX2d solution = factor.solve(right);
+    const Eigen::MatrixX2d solution = SparseLdlt(matrix).solve(right);
     for (int v = 0; v < n; ++v)
         if (!fixed[size_t(v)])
             plane.col(v) = solution.row(v).transpose();

@@ -1,7 +1,7 @@
 // The energy stage with held vertices.
 #include "engine/forming/solver/energy_stage.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "tests/support/revolved.h"

@@ -1,9 +1,11 @@
 #include "engine/forming/solver/equilibrium.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <random>
 
+#include "engine/core/small_dense.h"
 #include "tests/support/shapes.h"
 
 namespace spia::equilibrium_test {
@@ -116,12 +118,10 @@ TEST(Equilibrium, TheDefiniteNeighbourIsTheSymmetricTangentWithItsElementsEigenv
             }
             // Over the entries of G: B^+ takes them to displacements.
             const Eigen::Matrix<double, 4, 6> B = gradient_operator(one[0]);
-            const Eigen::Matrix<double, 6, 4> back = B.completeOrthogonalDecomposition().pseudoInverse();
-            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(back.transpose() * (k + k.transpose()) * back /
-                                                                       2);
-            const Matrix6d magnitude = B.transpose() * modes.eigenvectors() *
-                                       modes.eigenvalues().cwiseAbs().asDiagonal() * modes.eigenvectors().transpose() *
-                                       B;
+            const Eigen::Matrix<double, 6, 4> back = B.transpose() * (B * B.transpose()).inverse();
+            const EigenPairs<4> modes = eigen_pairs(back.transpose() * (k + k.transpose()) * back / 2);
+            const Matrix6d magnitude =
+                B.transpose() * modes.vector * modes.value.cwiseAbs().asDiagonal() * modes.vector.transpose() * B;
             for (int i = 0; i < 6; ++i)
                 for (int j = 0; j < 6; ++j)
                     expected(2 * part.triangle(i / 2, f) + i % 2, 2 * part.triangle(j / 2, f) + j % 2) +=

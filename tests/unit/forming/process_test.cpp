@@ -1,6 +1,6 @@
 #include "engine/forming/process/process.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <numbers>
 

@@ -1,5 +1,4 @@
 // Stamping direction, first guess and the step that flips nothing.
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <numbers>
 

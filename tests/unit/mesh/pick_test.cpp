@@ -41,7 +41,7 @@ double distance_to(const TriMesh& mesh, int f, const Eigen::Vector3d& origin, co
     const Eigen::Vector3d a = mesh.position.col(t[0]);
     Eigen::Matrix3d system;
     system << mesh.position.col(t[1]) - a, mesh.position.col(t[2]) - a, -direction;
-    const Eigen::Vector3d uvt = system.fullPivLu().solve(origin - a);
+    const Eigen::Vector3d uvt = system.inverse() * (origin - a);
     return uvt[0] >= 0 && uvt[1] >= 0 && uvt[0] + uvt[1] <= 1 && uvt[2] >= 0 ? uvt[2] : infinity;
 }
 

@@ -1,5 +1,5 @@
 // Smooth faces as targets: the spline, its fit and the step on it.
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <numbers>
 

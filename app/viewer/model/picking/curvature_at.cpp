@@ -1,10 +1,10 @@
 #include "app/viewer/model/picking/curvature_at.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/core/small_dense.h"
 
 namespace spia::viewer {
 namespace {
@@ -65,7 +65,7 @@ CurvatureAt curvature_at(const TriMesh& mesh, int face, const Vector3d& place, c
         A.row(row) << u * u, u * w, w * w, u, w, 1;
         height[row++] = z.dot(at);
     }
-    const Eigen::VectorXd q = A.completeOrthogonalDecomposition().solve(height);
+    const Eigen::VectorXd q = shortest_least_squares(A, height);
     found.distance_mm = unit * (A * q - height).cwiseAbs().maxCoeff();
     // Shape operator of the graph of the quadric at the place.
     const double zx = q[3], zy = q[4], root = std::sqrt(1 + zx * zx + zy * zy);
@@ -73,11 +73,14 @@ CurvatureAt curvature_at(const TriMesh& mesh, int face, const Vector3d& place, c
     first << 1 + zx * zx, zx * zy, zx * zy, 1 + zy * zy;
     second << 2 * q[0], q[1], q[1], 2 * q[2];
     second /= root * unit;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> principal(second, first);
-    const Eigen::Vector2d k = principal.eigenvalues();
+    const EigenPairs<2> metric = eigen_pairs(first);
+    const Eigen::Matrix2d unit_tangents =
+        metric.vector * metric.value.cwiseSqrt().cwiseInverse().asDiagonal() * metric.vector.transpose();
+    const EigenPairs<2> principal = eigen_pairs(unit_tangents * second * unit_tangents);
+    const Eigen::Vector2d k = principal.value;
     const int strong = std::abs(k[0]) >= std::abs(k[1]) ? 0 : 1;
     found.curvature = {k[strong], k[1 - strong]};
-    const Eigen::Vector2d way = principal.eigenvectors().col(strong);
+    const Eigen::Vector2d way = unit_tangents * principal.vector.col(strong);
     found.place = place + unit * q[5] * z;
     found.normal = (z - zx * x - zy * y).normalized();
     found.across = (way[0] * (x + zx * z) + way[1] * (y + zy * z)).normalized();

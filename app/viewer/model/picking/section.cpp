@@ -1,10 +1,11 @@
 #include "app/viewer/model/picking/section.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
+
+#include "engine/core/small_dense.h"
 
 namespace spia::viewer {
 namespace {
@@ -169,11 +170,10 @@ std::vector<SectionPiece> carried(std::vector<SectionPiece> pieces, const TriMes
     for (SectionPiece& piece : pieces) {
         const Eigen::Matrix3d before = from.position(Eigen::all, from.triangle.col(piece.face)),
                               after = to.position(Eigen::all, to.triangle.col(piece.face));
-        Eigen::Matrix<double, 3, 2> sides;
+        Eigen::MatrixXd sides(3, 2);
         sides << before.col(1) - before.col(0), before.col(2) - before.col(0);
-        const auto solver = sides.colPivHouseholderQr();
         for (Eigen::Vector3d* place : {&piece.from, &piece.to}) {
-            const Eigen::Vector2d share = solver.solve(*place - before.col(0));
+            const Eigen::Vector2d share = least_squares(sides, *place - before.col(0));
             *place = (1 - share.sum()) * after.col(0) + share[0] * after.col(1) + share[1] * after.col(2);
         }
     }

@@ -1,6 +1,6 @@
 #include "engine/mesh/solid/bends/unrolled_skin.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "engine/mesh/solid/fit/round_edge.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "engine/mesh/solid/holes/cut_off_holes.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "engine/mesh/solid/holes/sunk_holes.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
