@@ -248,6 +248,19 @@ struct ChangeStep {
     std::optional<double> tolerance = {};
     std::optional<StepTarget> target = {};
     std::optional<StepFriction> friction = {};
+
+    /// What leaves the step as it is.
+    static ChangeStep unchanged(int number, const PlannedStep& step)
+    {
+        return {number,
+                step.name,
+                step.offset_mm,
+                step.within_mm,
+                step.extent_mm,
+                step.tolerance,
+                {},
+                numbers_of(step.pick.friction)};
+    }
 };
 /// "set_target_plane": the target of a step becomes the plane through the faces of a region (not
 /// given: the selected faces), as they lie before it

@@ -272,15 +272,7 @@ template <> ChangeStep before(const Json& json, const ViewerState& state)
     const auto number = json.find("step");
     if (number == json.end() || !number->is_number_unsigned() || number->get<size_t>() >= steps.size())
         return {}; // reading complains, or carrying it out
-    const PlannedStep& step = *steps[number->get<size_t>()];
-    return {number->get<int>(),
-            step.name,
-            step.offset_mm,
-            step.within_mm,
-            step.extent_mm,
-            step.tolerance,
-            {},
-            numbers_of(step.pick.friction)};
+    return ChangeStep::unchanged(number->get<int>(), *steps[number->get<size_t>()]);
 }
 
 template <class T> T read_action(const Json& json, const ViewerState& base, const Place& place)

@@ -171,14 +171,7 @@ bool extent_editor(Frame& frame, std::optional<double>& extent_mm, float width)
 void step_editor(Frame& frame, int number)
 {
     const PlannedStep& step = *frame.state.document.steps[size_t(number)];
-    ChangeStep edited{number,
-                      step.name,
-                      step.offset_mm,
-                      step.within_mm,
-                      step.extent_mm,
-                      step.tolerance,
-                      {},
-                      numbers_of(step.pick.friction)};
+    ChangeStep edited = ChangeStep::unchanged(number, step);
     ImGui::SetNextItemWidth(-1);
     bool changed = typed_text(frame, "##name", edited.name, "name");
     const float width = 86 * frame.ui.scale;
