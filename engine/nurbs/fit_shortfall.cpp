@@ -35,8 +35,8 @@ std::array<Eigen::Vector3d, 4> corners_of(const NurbsSurface& surface)
 }
 
 /// The edge within reach, and the corner of a border, between the faces of the part.
-/// @param number  per vertex in the file. A smooth sheet is of finer triangles than the part: of its
-///                edges those count whose ends are two vertices of the file
+/// @param number  per vertex in the file. A smooth sheet is of finer triangles than the part: of
+/// its edges those count whose ends are two vertices of the file
 void look_around(const TriMesh& mesh, int part_faces, const std::array<Eigen::Vector3d, 4>& own_corners,
                  const std::function<int(int)>& number, const Eigen::Vector3d& where, double reach, Sharpest& edge,
                  Sharpest& corner)

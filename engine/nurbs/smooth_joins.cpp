@@ -42,8 +42,8 @@ struct Place {
     struct Angle {
         double sine = 0, cosine = 1;
     };
-    /// Whether both patches and the join have a direction there, which moves that are no more than a
-    /// distance do not turn about.
+    /// Whether both patches and the join have a direction there, which moves that are no more than
+    /// a distance do not turn about.
     bool defined(const Eigen::Matrix3Xd& control, double distance) const
     {
         const Vector3d a = value(derivative[0], control), b = value(derivative[1], control),

@@ -76,7 +76,8 @@ FitResult fit_within_tolerance(const Session& session, const SurfaceSource& sour
 
 /// Of a remeshed part what counts is the one that was given; only at_vertex is of the mesh that is
 /// shown.
-/// @param shown, part_faces  the remeshed one, whose triangles after the first part_faces fill holes
+/// @param shown, part_faces  the remeshed one, whose triangles after the first part_faces fill
+/// holes
 void judge_by_given(SurfaceStage& stage, const TriMesh& given, const TriMesh& shown, int part_faces,
                     DeviationOptions options, const Progress& progress)
 {

@@ -171,9 +171,9 @@ bool EvolvingMesh::split(Edge edge)
 {
     const auto [a, b] = ends(edge);
     Placed middle = place((at(a) + at(b)) / 2, length(a, b) / 2, a);
-    // A needle may be narrower than its edge is off the given mesh. Where long faces are cut to pieces as
-    // short as their corners ask they are needles no more, and go to the given mesh at once: a drawn
-    // cone takes half the time so.
+    // A needle may be narrower than its edge is off the given mesh. Where long faces are cut to
+    // pieces as short as their corners ask they are needles no more, and go to the given mesh at
+    // once: a drawn cone takes half the time so.
     const bool turns = original_size_.grows_in_long_faces() &&
                        !all_halves(edge, middle.position, [](const Corners& before, const Corners& after) {
                            return same_side(area_of(before), area_of(after));

@@ -274,10 +274,10 @@ Fault attempt(RemeshResult& result, const Given& given, const SizeField& size, c
     }
 }
 
-/// Edges that become longer within long faces leave out triangles that no tolerance asks for. They are
-/// taken where they are half of all, as in needles across flat faces: fewer are of use to the strains
-/// of a drawn sheet. (A drawn cone was solved in the law as given with 27 878 triangles, and with the
-/// hardening curve continued with 23 155.)
+/// Edges that become longer within long faces leave out triangles that no tolerance asks for. They
+/// are taken where they are half of all, as in needles across flat faces: fewer are of use to the
+/// strains of a drawn sheet. (A drawn cone was solved in the law as given with 27 878 triangles,
+/// and with the hardening curve continued with 23 155.)
 SizeField::LongFaces in_long_faces(const TriMesh& even, const EdgeSizes& sizes)
 {
     constexpr double worth = 2;

@@ -140,7 +140,8 @@ double SizeField::between(int a, int b, double share) const
 
 namespace {
 
-/// Of a piece of a face, halved along its longest edge until its middle says how long edges are in it.
+/// Of a piece of a face, halved along its longest edge until its middle says how long edges are in
+/// it.
 /// @param corners  barycentric
 double triangles_in(const SizeField& field, int face, const Eigen::Matrix3d& at, const Eigen::Matrix3d& corners,
                     int halvings)

@@ -23,8 +23,8 @@ public:
     /// The triangles around a vertex.
     const std::vector<int>& around(int vertex) const { return around_[size_t(vertex)]; }
 
-    /// Radians, by how much triangles that touch one, on its side of creases, are turned against all
-    /// of `beside`.
+    /// Radians, by how much triangles that touch one, on its side of creases, are turned against
+    /// all of `beside`.
     /// @param about, reach  corners of the triangle beyond that distance from the vertex do not
     ///                      count: long triangles of a plane reach as far as other bends
     double turn_behind(int face, const std::vector<int>& beside, int about = -1, double reach = 0) const;

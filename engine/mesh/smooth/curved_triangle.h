@@ -12,8 +12,8 @@ struct CubicTriangle {
     /// column i is not used.
     std::array<Eigen::Matrix3d, 3> near = {};
 
-    /// Its place at barycentric coordinates, with the point in its middle as Vlachos et al. 2001 put
-    /// it: as a quadratic triangle with these edges has it.
+    /// Its place at barycentric coordinates, with the point in its middle as Vlachos et al. 2001
+    /// put it: as a quadratic triangle with these edges has it.
     Eigen::Vector3d at(const Eigen::Vector3d& barycentric) const;
 };
 

@@ -11,8 +11,8 @@ struct SmoothMeshOptions {
     double crease = 0.8;   ///< radians, see smooth_normals()
     double chord = 0.01;   ///< mm, by which edges of the result may miss the smooth surface
     int most_halvings = 4; ///< of an edge
-    /// Where halving all edges once more could make more, it ends: a tenth of a tolerance that no file
-    /// is as good as is not worth minutes.
+    /// Where halving all edges once more could make more, it ends: a tenth of a tolerance that no
+    /// file is as good as is not worth minutes.
     int most_triangles = 500'000;
 };
 
@@ -31,7 +31,8 @@ struct SmoothMesh {
     Eigen::Vector3d at(const MeshPoint& in_facets) const;
     /// A place of this mesh on the one it comes from.
     MeshPoint in_facets(const MeshPoint& place) const;
-    /// Values at the vertices of the mesh it comes from, linear over its triangles, at all vertices.
+    /// Values at the vertices of the mesh it comes from, linear over its triangles, at all
+    /// vertices.
     Eigen::MatrixXd at_vertices(const TriMesh& from, const Eigen::MatrixXd& value) const;
 };
 

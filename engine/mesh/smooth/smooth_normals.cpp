@@ -80,8 +80,8 @@ std::vector<double> turns_on(const SheetTurns& turns, const Fan& fan)
             if (between < SheetTurns::level)
                 result[i] = std::max(result[i], own[j]);
         }
-    // Where a rim hides what is behind a triangle the turn to it tells: chords of an arc turn as much
-    // to the last one as before, to a flat half as much.
+    // Where a rim hides what is behind a triangle the turn to it tells: chords of an arc turn as
+    // much to the last one as before, to a flat half as much.
     const double most = *std::ranges::max_element(result),
                  least = std::max(SheetTurns::level, SheetTurns::isolated * most);
     constexpr double as_before = 0.75;
@@ -139,8 +139,8 @@ Fans fans_of(const SheetTurns& turns)
     return fans;
 }
 
-/// Where triangles are on one side of a vertex only, their mean is the normal some way inside. It is
-/// led on straight from the nearest vertex whose normal is known and the one behind it; nothing
+/// Where triangles are on one side of a vertex only, their mean is the normal some way inside. It
+/// is led on straight from the nearest vertex whose normal is known and the one behind it; nothing
 /// where there are none.
 std::optional<Eigen::Vector3d> led_on(const TriMesh& mesh, const Fan& fan, const Fans& fans)
 {

@@ -10,8 +10,8 @@ namespace spia {
 
 /// The bends that a shop is told of. Where a CAD file states that all faces are planes and
 /// cylinders, an edge between two planes is a fold, however little it turns, if the planes turn by
-/// as much: triangles that a rim tilts do not. Of other parts it may be an edge between chords: it is
-/// none where the CAD faces go over into each other, or where it is within one of them.
+/// as much: triangles that a rim tilts do not. Of other parts it may be an edge between chords: it
+/// is none where the CAD faces go over into each other, or where it is within one of them.
 BendMap bends_for_shop(const PartFile& part);
 
 /// The bends over which a part is unfolded step by step. Where a CAD file states that all faces are

@@ -44,7 +44,8 @@ struct Doubt {
     std::optional<int> face = {};              ///< of the part, where it is
 };
 
-/// The face of the part that a doubt is about, else the nearest to its place; nothing: no one place.
+/// The face of the part that a doubt is about, else the nearest to its place; nothing: no one
+/// place.
 std::optional<int> face_of(const Doubt& doubt, const TriMesh& part);
 
 /// What the doubts are found in: as long as all of it stays, they do.
