@@ -25,7 +25,7 @@ bool run(const PlannedAttempt& attempt, AttemptReport& report)
         throw;
     } catch (const Error& error) {
         report.reason = error.what();
-        report.refused = true;
+        report.refusal = std::current_exception();
         return false;
     }
 }

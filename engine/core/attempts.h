@@ -1,4 +1,5 @@
 #pragma once
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ struct AttemptReport {
     double seconds = 0;                     ///< with all within
     bool won = false;                       ///< its result is the one that was given
     std::vector<AttemptReport> within = {}; ///< attempts that it is made of
-    bool refused = false;                   ///< it ended with an Error, which is the reason
+    std::exception_ptr refusal = {};        ///< the Error with which it ended, if it did
 };
 
 /// A row of a table of attempts, those that give the better result or cost less first. They know by
@@ -26,7 +27,8 @@ struct PlannedAttempt {
     std::function<bool(AttemptReport& report)> run;
     std::function<bool()> accept = {}; ///< whether what is kept now will do, and no other is tried;
                                        ///< none: it will
-    bool may_refuse = false;           ///< an Error that run throws is its reason, and the next is tried
+    /// Whether an Error that run throws is its reason, and the next is tried.
+    bool may_refuse = false;
 };
 
 /// Makes the attempts in their order, until what one has kept will do.

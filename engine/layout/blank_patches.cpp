@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <exception>
 #include <fmt/core.h>
 #include <iterator>
 #include <limits>
@@ -229,21 +230,21 @@ private:
 
 /// What is in the way of the plainest division, which says most.
 /// @param made  of the divisions in their order, some left out
-const std::string& telling_refusal(const std::vector<Division>& divisions, const std::vector<AttemptReport>& made)
+std::exception_ptr telling_refusal(const std::vector<Division>& divisions, const std::vector<AttemptReport>& made)
 {
-    const AttemptReport* result = nullptr;
+    std::exception_ptr result;
     bool of_simplified = false;
     auto attempt = made.begin();
     for (const Division& division : divisions) {
         if (attempt == made.end() || attempt->name != division.name)
             continue;
-        if (attempt->refused && (!result || of_simplified || division.without_edges)) {
-            result = &*attempt;
+        if (attempt->refusal && (!result || of_simplified || division.without_edges)) {
+            result = attempt->refusal;
             of_simplified = division.simplified;
         }
         ++attempt;
     }
-    return result->reason;
+    return result;
 }
 
 PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
@@ -265,7 +266,7 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
     std::vector<AttemptReport> made = try_in_order(attempts);
     std::optional<PatchesFit> best = search.best();
     if (!best)
-        throw InputError(telling_refusal(division, made));
+        std::rethrow_exception(telling_refusal(division, made));
     best->attempts = std::move(made);
     return std::move(*best);
 }

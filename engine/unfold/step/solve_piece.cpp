@@ -84,7 +84,7 @@ SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, con
     const std::vector<AttemptReport> made =
         try_in_order({{"from where it is seen", [&] { return start.has_value(); }, from_seen, {}, true},
                       {"from a start of its own", {}, anew}});
-    if (made.front().refused)
+    if (made.front().refusal)
         flat.report.attempts.insert(flat.report.attempts.begin(), made.front());
     const Eigen::Vector3d height = normal * normal.dot(plane->origin);
     return {(blank_plane(flat.stamping.direction) * flat.blank.position).colwise() + height, std::move(flat.face),

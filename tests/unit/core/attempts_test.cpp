@@ -118,10 +118,11 @@ TEST(Attempts, ThatMayRefuseGiveTheErrorAsTheirReason)
     refuses.may_refuse = true;
     const auto made = try_in_order({refuses, search.give(3)});
     ASSERT_EQ(made.size(), 2u);
-    EXPECT_TRUE(made[0].refused);
+    ASSERT_TRUE(made[0].refusal);
+    EXPECT_THROW(std::rethrow_exception(made[0].refusal), SolveError);
     EXPECT_FALSE(made[0].won);
     EXPECT_EQ(made[0].reason, "no way on");
-    EXPECT_FALSE(made[1].refused);
+    EXPECT_FALSE(made[1].refusal);
     EXPECT_TRUE(made[1].won);
     EXPECT_EQ(try_in_order({refuses}).size(), 1u); // whose caller sees that nothing was kept
 }
