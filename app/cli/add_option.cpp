@@ -12,7 +12,7 @@ std::vector<std::string> names_of(const Option& option)
 
 std::string help_of(const Option& option)
 {
-    std::string text(option.help);
+    std::string text = std::string(option.help).append(applicability(option));
     for (const Choice& choice : option.choices)
         if (!choice.help.empty())
             text.append("; ").append(choice.name).append(": ").append(choice.help);

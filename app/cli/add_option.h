@@ -1,6 +1,8 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -16,11 +18,18 @@ std::vector<std::string> names_of(const Option& option);
 /// What the option does, and what its choices do.
 std::string help_of(const Option& option);
 
-/// Refuses numbers that are out of the option's range. People give percent of what is a share.
-template <class Number> CLI::Range range_of(const Option& option)
+/// Refuses numbers that are out of the option's range, and nan, which is in all of CLI11's. People
+/// give percent of what is a share.
+template <class Number> CLI::Validator range_of(const Option& option)
 {
     const double scale = option.value == "PERCENT" ? 100 : 1;
-    return {Number(scale * option.range->least), Number(scale * option.range->greatest)};
+    const CLI::Range range{Number(scale * option.range->least), Number(scale * option.range->greatest)};
+    const auto check = [range](std::string& word) {
+        double number = 0;
+        const bool nan = CLI::detail::lexical_cast(word, number) && std::isnan(number);
+        return nan ? fmt::format("{} is no number in the range {}", word, range.get_description()) : range(word);
+    };
+    return {check, range.get_description()};
 }
 
 template <class T> struct NumberIn {

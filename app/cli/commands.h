@@ -5,6 +5,10 @@
 #include <vector>
 
 #include "engine/exchange/lines/dxf_options.h"
+#include "engine/options/described.h"
+#include "engine/options/part_options.h"
+#include "engine/options/sheet_options.h"
+#include "engine/options/surface_options.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::cli {
@@ -169,3 +173,32 @@ std::string describe_thickness(const std::optional<double>& asked, const PartFil
 std::filesystem::path assets();
 
 } // namespace spia::cli
+
+namespace spia {
+
+template <>
+inline constexpr auto described<cli::RunArguments> =
+    std::tuple{describe(option::k_factor, &cli::RunArguments::k_factor),
+               describe(option::material, &cli::RunArguments::material),
+               describe(option::thickness, &cli::RunArguments::thickness),
+               describe(option::both_skins, &cli::RunArguments::skins),
+               describe(option::flc, &cli::RunArguments::flc),
+               describe(option::flc_n, &cli::RunArguments::flc_n),
+               describe(option::marginal, &cli::RunArguments::marginal),
+               describe(option::max_thinning, &cli::RunArguments::max_thinning),
+               describe(option::max_thickening, &cli::RunArguments::max_thickening),
+               describe(option::process, &cli::RunArguments::process),
+               describe(option::grid, &cli::RunArguments::cells),
+               describe(option::corners, &cli::RunArguments::corners),
+               describe(option::tolerance, &cli::RunArguments::tolerance),
+               describe(option::patches, &cli::RunArguments::patches),
+               describe(option::patch_edges, &cli::RunArguments::patch_edges),
+               describe(option::smooth_joins, &cli::RunArguments::smooth_joins),
+               describe(option::deform, &cli::RunArguments::deform),
+               describe(option::degree, &cli::RunArguments::degree),
+               describe(option::ends, &cli::RunArguments::ends),
+               describe(option::fit_parameters, &cli::RunArguments::fit_parameters),
+               describe(option::max_control_points, &cli::RunArguments::max_control_points),
+               describe(option::fill_holes, &cli::RunArguments::fill_holes)};
+
+} // namespace spia

@@ -1,47 +1,25 @@
 #include "app/cli/add_option.h"
 #include "app/cli/part_arguments.h"
 #include "app/cli/subcommand.h"
-#include "engine/options/part_options.h"
-#include "engine/options/sheet_options.h"
-#include "engine/options/surface_options.h"
 #include "engine/pipeline/outputs/outputs.h"
 
 namespace spia::cli {
 namespace {
 
-void add_sheet(CLI::App& command, RunArguments& run)
+/// Of sheet and surface.
+void add_described(CLI::App& command, RunArguments& run)
 {
-    add(command, option::material, run.material);
-    add(command, option::thickness, run.thickness);
-    add(command, option::both_skins, run.skins);
-    add(command, option::flc, run.flc);
-    add(command, option::flc_n, run.flc_n);
-    add(command, option::marginal, run.marginal);
-    add(command, option::max_thinning, run.max_thinning);
-    add(command, option::max_thickening, run.max_thickening);
-    add(command, option::process, run.process);
-    add_direction(command, run.direction);
-    add_rolling(command, run.rolling);
-}
-
-void add_surface(CLI::App& command, RunArguments& run)
-{
-    add(command, option::grid, run.cells);
+    for_each_described(run, [&](const Option& option, auto& value) { add(command, option, value); });
     for_each_described(run.grid, [&](const Option& option, auto& value) {
         if (!option.name.empty())
             add(command, option, value);
     });
-    add(command, option::corners, run.corners)->delimiter(',')->expected(4);
-    add(command, option::tolerance, run.tolerance);
-    add(command, option::patches, run.patches);
-    add(command, option::patch_edges, run.patch_edges);
-    add(command, option::smooth_joins, run.smooth_joins);
-    add(command, option::deform, run.deform);
-    add(command, option::degree, run.degree)->delimiter(',')->expected(1, 2);
-    add(command, option::ends, run.ends);
-    add(command, option::fit_parameters, run.fit_parameters);
-    add(command, option::max_control_points, run.max_control_points);
-    add(command, option::fill_holes, run.fill_holes);
+    for (const Option* list : {&option::corners, &option::degree})
+        command.get_option("--" + std::string(list->name))->delimiter(',');
+    command.get_option("--" + std::string(option::corners.name))->expected(4);
+    command.get_option("--" + std::string(option::degree.name))->expected(1, 2);
+    add_direction(command, run.direction);
+    add_rolling(command, run.rolling);
 }
 
 void add_files(CLI::App& command, RunArguments& run)
@@ -78,9 +56,7 @@ void add_arguments(CLI::App& command, RunArguments& run)
     command.add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
     add_reading(command, run.read);
     add_remesh(command, run.read.remesh);
-    add(command, option::k_factor, run.k_factor);
-    add_sheet(command, run);
-    add_surface(command, run);
+    add_described(command, run);
     add_files(command, run);
 }
 

@@ -46,13 +46,37 @@ LimitsOptions limits_options(const RunArguments& arguments)
     return result;
 }
 
-/// Whether any option is for one patch, the plain surface over the whole blank.
+/// Those that are not as by default, of the sheet and of the surface.
+std::vector<const Option*> given_options(const RunArguments& arguments)
+{
+    std::vector<const Option*> given;
+    const auto add = [&given](const Option& option) { given.push_back(&option); };
+    for_each_changed(arguments, add);
+    for_each_changed(arguments.grid, add);
+    return given;
+}
+
+/// Whether what was given is for one patch, the plain surface over the whole blank.
 bool asks_for_one_patch(const RunArguments& arguments)
 {
-    const RunArguments plain;
-    return !arguments.cells.empty() || !arguments.corners.empty() || arguments.grid != plain.grid ||
-           arguments.ends != plain.ends || arguments.fit_parameters != plain.fit_parameters || arguments.fill_holes ||
-           !arguments.deform.empty() || arguments.degree.front() != arguments.degree.back();
+    const auto for_one = [](const Option* option) { return option->patches == Patches::one; };
+    return std::ranges::any_of(given_options(arguments), for_one) || !arguments.deform.empty() ||
+           arguments.degree.front() != arguments.degree.back();
+}
+
+/// @throws InputError  if something was given that the surface, of one patch or several, has no use
+///                     for
+void require_use(const RunArguments& arguments, bool several)
+{
+    for (const Option* option : given_options(arguments)) {
+        if (several && option->patches == Patches::one)
+            throw InputError(fmt::format("--{} is for one patch; take --patches one, or leave it out", option->name));
+        if (!several && option->patches == Patches::several)
+            throw InputError(fmt::format(
+                "--{} is for several patches; ask for them with --patches auto, or leave it out", option->name));
+    }
+    if (several && arguments.degree.front() != arguments.degree.back())
+        throw InputError("several patches have one degree along u and v; give --degree one number");
 }
 
 SessionOptions options(const RunArguments& arguments)
@@ -83,41 +107,20 @@ SessionOptions options(const RunArguments& arguments)
         result.grid.rows = m;
     }
     result.limits = limits_options(arguments);
-    // a NaN passes the check of the option
-    if (!(arguments.grid.line_grading >= 0 && arguments.grid.line_grading <= 0.9))
-        throw InputError("--to-bends is a share of the lines, from 0 to 0.9");
     result.interpolate.ends = arguments.ends;
     result.interpolate.degree_u = arguments.degree.front();
     result.interpolate.degree_v = arguments.degree.back();
     result.tolerance = arguments.tolerance;
     result.patches = patch_layout(arguments.patches);
     result.best_surface = arguments.patches == "best" && !asks_for_one_patch(arguments);
-    if (arguments.smooth_joins && !result.patches)
-        throw InputError("--smooth-joins is for patches; ask for them with --patches auto, or leave it out");
+    require_use(arguments, result.patches.has_value());
     if (arguments.smooth_joins)
         result.patches->smooth_joins = true;
-    if (arguments.patch_edges && !result.patches)
-        throw InputError("--patch-edges is for patches; ask for them with --patches auto, or leave it out");
-    // a NaN, likewise
-    if (arguments.patch_edges && !(*arguments.patch_edges >= 1 && *arguments.patch_edges <= 180))
-        throw InputError("--patch-edges is an angle in degrees, from 1 to 180");
     if (arguments.patch_edges && (!result.patches->cuts.empty() || !result.patches->corners.empty()))
         throw InputError(
             "--patch-edges is not for layouts with cuts or corners, where no edges are looked for; leave it out");
     if (arguments.patch_edges)
         result.patches->edge_deg = *arguments.patch_edges;
-    if (result.patches && arguments.degree.front() != arguments.degree.back())
-        throw InputError("patches of a layout have one degree along u and v; give --degree one number");
-    if (result.patches && arguments.fit_parameters == FitParameters::corrected)
-        throw InputError("patches of a layout keep the places of the blank; leave --fit-parameters corrected out");
-    if (result.patches && arguments.ends != CurveEnds::averaged_knots)
-        throw InputError("patches of a layout have averaged knots at their ends; leave --ends out");
-    if (result.patches && (!arguments.corners.empty() || !arguments.cells.empty()))
-        throw InputError(
-            "--corners and --grid are for one patch; give corners in the file of --patches, or take --patches one");
-    if (result.patches && (arguments.grid.line_grading > 0 || arguments.grid.even_cells))
-        throw InputError(
-            "--to-bends and --even-cells are for the grid of one patch; take --patches one, or leave them out");
     result.fit_parameters = arguments.fit_parameters;
     result.max_control_points = arguments.max_control_points;
     result.fill_holes = arguments.fill_holes;
@@ -175,14 +178,11 @@ ChainWishes wishes_of(const RunArguments& arguments)
 /// surface, and reads no warning of one.
 Stage last_stage(const RunArguments& arguments)
 {
-    const RunArguments plain;
     const bool files =
         std::ranges::any_of(arguments.formats, shows_surface) || !arguments.json.empty() || !arguments.report.empty();
-    const bool asked = !arguments.deform.empty() || !arguments.cells.empty() || !arguments.corners.empty() ||
-                       arguments.grid != plain.grid || arguments.tolerance || arguments.patches != plain.patches ||
-                       arguments.degree != plain.degree || arguments.ends != plain.ends ||
-                       arguments.fit_parameters != plain.fit_parameters || arguments.fill_holes ||
-                       arguments.max_control_points != plain.max_control_points;
+    const bool asked = std::ranges::any_of(given_options(arguments), [](const Option* option) {
+        return std::ranges::find(option::of_surfaces, option) != std::end(option::of_surfaces);
+    });
     return files || asked ? Stage::fit : Stage::solve;
 }
 

@@ -24,4 +24,13 @@ template <class S, class Use> void for_each_described(S& options, const Use& use
     std::apply([&](const auto&... each) { (use(*each.option, options.*each.member), ...); }, described<S>);
 }
 
+/// @param use  called with each option whose member is not the default one
+template <class S, class Use> void for_each_changed(const S& options, const Use& use)
+{
+    const S plain;
+    std::apply(
+        [&](const auto&... each) { ((options.*each.member == plain.*each.member ? void() : use(*each.option)), ...); },
+        described<S>);
+}
+
 } // namespace spia

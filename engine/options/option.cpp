@@ -1,6 +1,7 @@
 #include "engine/options/option.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "engine/options/all_options.h"
 
@@ -91,5 +92,15 @@ std::string command_line_text(std::string_view text)
 }
 
 std::string window_text(std::string_view text) { return replaced(text, in_window, &Advice::in_window); }
+
+std::string_view applicability(const Option& option)
+{
+    switch (option.patches) {
+    case Patches::any: return "";
+    case Patches::one: return " (of one patch only)";
+    case Patches::several: return " (of several patches only)";
+    }
+    std::abort();
+}
 
 } // namespace spia

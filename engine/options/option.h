@@ -23,6 +23,9 @@ struct Choice {
                                  ///< the option
 };
 
+/// Which surfaces an option is for, by what they are made of.
+enum class Patches { any, one, several };
+
 /// What can be asked for, described once: the command line, scripts and projects, the fields of the
 /// window and the advice in messages are made from it. The default is that of the member it sets.
 struct Option {
@@ -37,6 +40,7 @@ struct Option {
     std::string_view help;                ///< what it does; no capital and no full stop
     std::string_view label = {};          ///< of its field in the window; empty: it has none
     std::string_view place = {};          ///< of the window, in which that field is
+    Patches patches = Patches::any;       ///< where it applies; elsewhere it has no effect
 };
 
 /// What to do next, where that is another thing in files and on the command line than in the
@@ -56,6 +60,9 @@ std::string mention(const Advice& advice);
 std::string command_line_text(std::string_view text);
 /// As in: close the crack ("Close the crack" in the step Part).
 std::string window_text(std::string_view text);
+
+/// What the option is for, to be put behind its help: " (of one patch only)"; empty: any surface.
+std::string_view applicability(const Option& option);
 
 /// Of a choice in the list of the window.
 inline std::string_view label_of(const Choice& choice) { return choice.label.empty() ? choice.name : choice.label; }

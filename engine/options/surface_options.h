@@ -8,27 +8,39 @@ inline constexpr Option grid{.name = "grid",
                              .value = "NxM",
                              .help = "cells of the quad grid (default: automatic)",
                              .label = "Cells",
-                             .place = "the step Corners and grid"};
+                             .place = "the step Corners and grid",
+                             .patches = Patches::one};
 inline constexpr Option corners{.name = "corners",
                                 .value = "a,b,c,d",
                                 .help = "four vertices of the outer boundary, numbers as in the file, from 0",
-                                .place = "the corners in the step Corners and grid"};
+                                .place = "the corners in the step Corners and grid",
+                                .patches = Patches::one};
 
 // A number of cells that is 0 follows from the other one.
-inline constexpr Option columns{
-    .name = "", .key = "columns", .range = Range{0, 2000}, .help = "cells along u", .label = "Columns"};
-inline constexpr Option rows{
-    .name = "", .key = "rows", .range = Range{0, 2000}, .help = "cells along v", .label = "Rows"};
+inline constexpr Option columns{.name = "",
+                                .key = "columns",
+                                .range = Range{0, 2000},
+                                .help = "cells along u",
+                                .label = "Columns",
+                                .patches = Patches::one};
+inline constexpr Option rows{.name = "",
+                             .key = "rows",
+                             .range = Range{0, 2000},
+                             .help = "cells along v",
+                             .label = "Rows",
+                             .patches = Patches::one};
 inline constexpr Option cells{.name = "",
                               .key = "cells",
                               .range = Range{1, 2000},
                               .help = "cells along the longer sides, where they are square",
-                              .label = "Cells"};
+                              .label = "Cells",
+                              .patches = Patches::one};
 inline constexpr Option smoothing{.name = "",
                                   .key = "smoothing",
                                   .range = Range{0, 100'000},
                                   .help = "maximum number of smoothing passes over a Coons grid with folded cells",
-                                  .label = "Smoothing"};
+                                  .label = "Smoothing",
+                                  .patches = Patches::one};
 inline constexpr Choice grid_methods[] = {
     {"automatic", {}, "Coons, or harmonic where that folds"},
     {"coons", "Coons", "lines blended between opposite sides as in the paper, smoothed where cells fold"},
@@ -37,20 +49,23 @@ inline constexpr Option grid_method{.name = "grid-method",
                                     .key = "method",
                                     .choices = grid_methods,
                                     .help = "how the lines of the grid are laid",
-                                    .label = "Method"};
+                                    .label = "Method",
+                                    .patches = Patches::one};
 inline constexpr Option line_grading{
     .name = "to-bends",
     .key = "to_bends",
     .value = "0-0.9",
     .range = Range{0, 0.9},
     .help = "share of the grid lines that are moved to the bends; the others are evenly spaced. 0.5 suits a flat part "
-            "with narrow bends (of one patch only)",
-    .label = "Lines to bends"};
+            "with narrow bends",
+    .label = "Lines to bends",
+    .patches = Patches::one};
 inline constexpr Option even_cells{
     .name = "even-cells",
     .key = "even_cells",
-    .help = "move the inner nodes of the grid towards right angles; no cell folds on the way (of one patch only)",
-    .label = "Improve cell angles"};
+    .help = "move the inner nodes of the grid towards right angles; no cell folds on the way",
+    .label = "Improve cell angles",
+    .patches = Patches::one};
 
 inline constexpr Option tolerance{
     .name = "tolerance",
@@ -78,7 +93,8 @@ inline constexpr Option ends{.name = "ends",
                              .key = "ends",
                              .choices = curve_ends,
                              .help = "of the surface at its borders",
-                             .label = "End conditions"};
+                             .label = "End conditions",
+                             .patches = Patches::one};
 inline constexpr Choice fit_parameter_choices[] = {{"blank"}, {"corrected"}};
 inline constexpr Option fit_parameters{
     .name = "fit-parameters",
@@ -86,7 +102,8 @@ inline constexpr Option fit_parameters{
     .choices = fit_parameter_choices,
     .help = "within a tolerance: those of the blank, or corrected: points slide along the surface while it is fitted, "
             "which then needs fewer control points but gives up the places in the blank",
-    .label = "Fewer control points"};
+    .label = "Fewer control points",
+    .patches = Patches::one};
 inline constexpr Option max_control_points{
     .name = "max-control-points",
     .key = "max_control_points",
@@ -97,7 +114,8 @@ inline constexpr Option max_control_points{
 inline constexpr Option fill_holes{
     .name = "fill-holes",
     .help = "the surface covers the holes of the part; else IGES and STEP have it trimmed by them (files for "
-            "isogeometric analysis cannot)"};
+            "isogeometric analysis cannot)",
+    .patches = Patches::one};
 inline constexpr Option deform{
     .name = "deform",
     .value = "FILE",
@@ -126,17 +144,19 @@ inline constexpr Option patch_edges{
     .key = "edge_deg",
     .value = "DEG",
     .range = Range{1, 180},
-    .help = "of patches: they end on edges over which the sheet turns more than this (45; 20 where the tolerance is "
+    .help = "patches end on edges over which the sheet turns more than this (45; 20 where the tolerance is "
             "missed); 180: on none. Not where cuts or corners are given",
     .label = "Edges from",
-    .place = "the step NURBS surface"};
+    .place = "the step NURBS surface",
+    .patches = Patches::several};
 inline constexpr Option smooth_joins{
     .name = "smooth-joins",
     .key = "smooth_joins",
-    .help = "of patches: smooth their joins, as far as the tolerance allows; edges of the part (joins with more than "
+    .help = "smooth the joins, as far as the tolerance allows; edges of the part (joins with more than "
             "10 degrees) stay sharp",
     .label = "Smooth joins",
-    .place = "the step NURBS surface"};
+    .place = "the step NURBS surface",
+    .patches = Patches::several};
 
 /// All of this file.
 inline constexpr const Option* of_surfaces[] = {

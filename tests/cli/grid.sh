@@ -19,10 +19,16 @@ run 0 "^          one patch over the whole blank" "$parts/fender.obj" --json "$o
 run 0 "least scaled Jacobian" "$parts/dome.obj" --grid 20x20 --json "$out/a.json"
 grep -q "\"choice\"" "$out/a.json" && fail "the grid was asked for"
 grep -q '"to_bends": 0.0' "$out/a.json" || fail "lines went to bends unasked"
-run 2 "--to-bends is a share of the lines, from 0 to 0.9" "$channel" --to-bends nan
-run 2 "are for the grid of one patch" "$channel" --patches auto --to-bends 0.5
-run 2 "are for the grid of one patch" "$channel" --patches auto --even-cells
-run 2 "--smooth-joins is for patches" "$channel" --smooth-joins
+run 2 "--to-bends: nan is no number in the range" "$channel" --to-bends nan
+# Nothing that was asked for is passed over where the surface has no use for it.
+for asked in "--grid 20x20" "--corners 0,1,2,3" "--grid-method harmonic" "--to-bends 0.5" "--even-cells" "--ends natural" \
+             "--fit-parameters corrected" "--fill-holes"; do
+    run 2 "^spia: ${asked%% *} is for one patch; take --patches one, or leave it out" "$channel" --patches auto $asked
+done
+for asked in "--smooth-joins" "--patch-edges 60"; do
+    run 2 "^spia: ${asked%% *} is for several patches; ask for them with --patches auto, or leave it out" "$channel" $asked
+done
+run 2 "^spia: several patches have one degree along u and v; give --degree one number" "$channel" --patches auto --degree 3,2
 # A file may ask for smooth joins alone; what asks for nothing is refused.
 echo '{"smooth_joins": true}' > "$out/smooth.json"
 run 0 "^joins     angle up to" "$parts/perforated-channel.obj" --patches "$out/smooth.json" --tolerance 0.5
@@ -40,8 +46,7 @@ grep -q '"edges": 0' "$out/a.json" || fail "the report tells an edge on which no
 echo '{"edge_deg": 91}' > "$out/edges.json"
 run 0 "1 patch with" "$out/fold.obj" --patches "$out/edges.json"
 run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches "$out/edges.json" --patch-edges 60
-run 2 "--patch-edges is for patches" "$out/fold.obj" --patch-edges 60
-run 2 "from 1 to 180" "$out/fold.obj" --patches auto --patch-edges nan
+run 2 "nan is no number in the range" "$out/fold.obj" --patches auto --patch-edges nan
 echo '{"edge_deg": 0}' > "$out/edges.json"
 run 2 "edge_deg.* must be an angle in degrees, from 1 to 180" "$out/fold.obj" --patches "$out/edges.json"
 echo '{"edge_deg": 45}' > "$out/edges.json"

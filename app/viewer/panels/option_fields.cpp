@@ -21,7 +21,7 @@ template <class Number> bool within(const Option& option, Number& value, bool ch
 
 std::string help_text(const Option& option)
 {
-    std::string text = sentence(std::string(option.help));
+    std::string text = sentence(std::string(option.help).append(applicability(option)));
     for (const Choice& choice : option.choices)
         if (!choice.help.empty())
             text += fmt::format(" {}: {}.", as_sentence(std::string(label_of(choice))), choice.help);

@@ -81,7 +81,7 @@ TEST(Option, IsMentionedInJsonAsOnTheCommandLine)
 TEST(Option, IsListedWithNamesOfItsOwn)
 {
     std::set<std::string_view> names;
-    size_t named = 0, described = 0;
+    size_t named = 0;
     for (const Option* each : all_options()) {
         names.insert(each->name);
         named += !each->name.empty();
@@ -92,10 +92,19 @@ TEST(Option, IsListedWithNamesOfItsOwn)
         named += names.insert(each->name).second;
     names.erase("");
     EXPECT_EQ(names.size(), named);
-    for_each_source("/options", [&](const auto&, const std::string& text) {
-        described += matches(text, std::regex(R"(constexpr (Option|Advice) \w+\{)")).size();
+}
+
+TEST(Option, IsInTheListOfItsFile)
+{
+    size_t described = 0;
+    for_each_source("/options", [&](const auto& file, const std::string& text) {
+        for (const std::smatch& at : matches(text, std::regex(R"(constexpr (Option|Advice) (\w+)\{)"))) {
+            ++described;
+            EXPECT_TRUE(std::regex_search(text, std::regex("&" + at[2].str() + "\\b")))
+                << file << ": " << at[2] << " is missing in the list at the end of the file";
+        }
     });
-    EXPECT_EQ(all_options().size() + all_advice().size(), described);
+    EXPECT_EQ(all_options().size() + all_advice().size(), described) << "a list is missing in all_options.cpp";
 }
 
 TEST(Option, IsNamedInTheWordsOfEachProgram)

@@ -36,41 +36,50 @@ struct Three {
 };
 static_assert(fields<Three>() == 3);
 
+/// @param others  that many fields are no members, on purpose
+template <class T> void expect_all_members(size_t others = 0)
+{
+    EXPECT_EQ(members<T> + others, fields<T>())
+        << testing::internal::GetTypeName<T>()
+        << " has a field that scripts and projects lose: give it a row in described<> beside the struct, or in "
+           "members_of<> of app/viewer/model/actions/members.h";
+}
+
 } // namespace
 
 // What is forgotten there is lost in scripts and projects without a word, and so it is in tests
 // that compare their JSON.
 TEST(Members, AreAllFieldsOfTheirStructs)
 {
-    EXPECT_EQ(members<GltfNodes>, fields<GltfNodes>());
-    EXPECT_EQ(members<CsvTables>, fields<CsvTables>());
-    EXPECT_EQ(members<OutputOptions>, fields<OutputOptions>());
-    EXPECT_EQ(members<ReportTables>, fields<ReportTables>());
-    EXPECT_EQ(members<ViewerReportOptions>, fields<ViewerReportOptions>());
-    EXPECT_EQ(members<SeamOptions>, fields<SeamOptions>());
-    EXPECT_EQ(members<Reading>, fields<Reading>());
-    EXPECT_EQ(members<RemeshOptions>, fields<RemeshOptions>() - 2) << "all but what counts as a line";
-    EXPECT_EQ(members<TensileOptions>, fields<TensileOptions>());
-    EXPECT_EQ(members<MaterialFitOptions>, fields<MaterialFitOptions>());
-    EXPECT_EQ(members<GridOptions>, fields<GridOptions>());
-    EXPECT_EQ(members<FitChoice>, fields<FitChoice>());
-    EXPECT_EQ(members<LayoutOptions>, fields<LayoutOptions>() - 7) << "all but what is the same for everybody";
-    EXPECT_EQ(members<LatticeChoice>, fields<LatticeChoice>());
-    EXPECT_EQ(members<ControlMove>, fields<ControlMove>());
-    EXPECT_EQ(members<TargetPlane>, fields<TargetPlane>());
-    EXPECT_EQ(members<TargetCylinder>, fields<TargetCylinder>());
-    EXPECT_EQ(members<TargetCone>, fields<TargetCone>());
-    EXPECT_EQ(members<StepTarget>, fields<StepTarget>());
-    EXPECT_EQ(members<LimitsChoice>, fields<LimitsChoice>());
-    EXPECT_EQ(members<ToolContact>, fields<ToolContact>());
-    EXPECT_EQ(members<StepFriction>, fields<StepFriction>());
-    EXPECT_EQ(members<OwnSheet>, fields<OwnSheet>());
-    EXPECT_EQ(members<BeadShape>, fields<BeadShape>());
-    EXPECT_EQ(members<ProcessLine>, fields<ProcessLine>());
-    EXPECT_EQ(members<Probe>, fields<Probe>());
-    EXPECT_EQ(members<FieldDisplay>, fields<FieldDisplay>());
-    EXPECT_EQ(members<Camera>, fields<Camera>());
-    EXPECT_EQ(members<ViewSettings>, fields<ViewSettings>());
+    expect_all_members<GltfNodes>();
+    expect_all_members<CsvTables>();
+    expect_all_members<OutputOptions>();
+    expect_all_members<ReportTables>();
+    expect_all_members<ViewerReportOptions>();
+    expect_all_members<SeamOptions>();
+    expect_all_members<Reading>();
+    expect_all_members<RemeshOptions>(2); // all but what counts as a line
+    expect_all_members<TensileOptions>();
+    expect_all_members<MaterialFitOptions>();
+    expect_all_members<GridOptions>();
+    expect_all_members<FitChoice>();
+    expect_all_members<LayoutOptions>(7); // all but what is the same for everybody
+    expect_all_members<LatticeChoice>();
+    expect_all_members<ControlMove>();
+    expect_all_members<TargetPlane>();
+    expect_all_members<TargetCylinder>();
+    expect_all_members<TargetCone>();
+    expect_all_members<StepTarget>();
+    expect_all_members<LimitsChoice>();
+    expect_all_members<ToolContact>();
+    expect_all_members<StepFriction>();
+    expect_all_members<OwnSheet>();
+    expect_all_members<BeadShape>();
+    expect_all_members<ProcessLine>();
+    expect_all_members<Probe>();
+    expect_all_members<FieldDisplay>();
+    expect_all_members<Camera>();
+    expect_all_members<ViewSettings>();
 }
 
 } // namespace spia::viewer

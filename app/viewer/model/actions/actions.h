@@ -130,11 +130,9 @@ struct SetCorner {
 struct ProposeCorners {}; ///< "propose_corners": automatic ones again
 struct SetGrid {
     GridOptions grid;
-}; ///< "set_grid": columns, rows, cells, smoothing, method, to_bends (share of the lines, 0 to
-    ///< 0.9), even_cells
-/// "set_fit", of the surface: tolerance (mm, two-sided; null: it runs through the nodes of the
-/// grid), degree_u, degree_v (2 to 5), ends ("averaged", "clamped", "natural"), parameters
-/// ("blank", "corrected"), max_control_points.
+}; ///< "set_grid": its options by their keys, as described<GridOptions> has them
+/// "set_fit": those of the surface by their keys, as members_of<FitChoice> has them; tolerance null:
+/// it runs through the nodes of the grid
 struct SetFit {
     FitChoice fit;
 };
