@@ -1,6 +1,7 @@
 #include "app/cli/part_arguments.h"
 
 #include "app/cli/add_option.h"
+#include "engine/exchange/part_formats.h"
 #include "engine/options/part_options.h"
 #include "engine/options/sheet_options.h"
 
@@ -8,12 +9,7 @@ namespace spia::cli {
 
 void add_part(CLI::App& command, std::filesystem::path& part)
 {
-    command
-        .add_option("part", part,
-                    "STL, OBJ, PLY, OFF, glTF or GLB file, CAD file (.step .stp .iges .igs .brep), or solver deck "
-                    "(LS-DYNA .k .key .dyn, Nastran .bdf .nas .dat, Abaqus and CalculiX .inp, Gmsh .msh, Radioss .rad)")
-        ->required()
-        ->type_name("PART");
+    command.add_option("part", part, part_format_endings())->required()->type_name("PART");
 }
 
 void add_reading(CLI::App& command, ReadArguments& read)

@@ -4,8 +4,7 @@
 
 #include "app/cli/commands.h"
 #include "engine/core/error.h"
-#include "engine/core/text.h"
-#include "engine/exchange/cad/read_cad.h"
+#include "engine/exchange/part_formats.h"
 #include "engine/pipeline/files/seam_file.h"
 
 namespace spia::cli {
@@ -13,9 +12,8 @@ namespace {
 
 CadOptions cad_options(const CadArguments& arguments, const std::filesystem::path& part)
 {
-    const std::string extension = lower_case(part.extension().string());
     const bool any = arguments.sewing || arguments.deflection || arguments.angle_deg || arguments.skip_bad_faces;
-    if (any && !is_cad(extension))
+    if (any && kind_of_file(part) != FileKind::cad)
         throw InputError(
             fmt::format("{}: --sewing, --deflection, --angle and --skip-bad-faces are for CAD files; this one "
                         "has its triangles already",

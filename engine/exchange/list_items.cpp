@@ -12,6 +12,7 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/exchange/mesh/mesh_file.h"
+#include "engine/exchange/part_formats.h"
 #include "engine/mesh/doctor/doctor.h"
 
 namespace spia {
@@ -116,12 +117,12 @@ FileItems items_of_deck(const std::filesystem::path& path, const Progress& progr
     return items;
 }
 
-FileItems items_of_mesh(const std::filesystem::path& path, const std::string& extension, const Progress& progress)
+FileItems items_of_mesh(const std::filesystem::path& path, const Progress& progress)
 {
-    MeshFile file = read_mesh_file(path, extension, progress);
+    MeshFile file = read_mesh_file(path, progress);
     FileItems items;
     items.format = std::move(file.format);
-    items.unit = extension == "gltf" || extension == "glb" ? name(LengthUnit::m) : "";
+    items.unit = file.unit ? name(*file.unit) : "";
     items.notes = std::move(file.notes);
     items.preview = std::move(file.soup);
     const int polygons = items.preview.polygons();
@@ -138,12 +139,12 @@ FileItems items_of_mesh(const std::filesystem::path& path, const std::string& ex
 FileItems list_items(const std::filesystem::path& path, const Progress& progress)
 {
     try {
-        const std::string extension = part_extension(path);
-        if (is_cad("." + extension))
-            return items_of_cad(path, progress);
-        if (is_deck("." + extension))
-            return items_of_deck(path, progress);
-        return items_of_mesh(path, extension, progress);
+        switch (require_kind_of_file(path)) {
+        case FileKind::cad: return items_of_cad(path, progress);
+        case FileKind::deck: return items_of_deck(path, progress);
+        case FileKind::mesh: return items_of_mesh(path, progress);
+        }
+        std::abort();
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", path.string(), error.what()));
     }

@@ -10,6 +10,7 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/deck/read_deck.h"
 #include "engine/exchange/mesh/mesh_file.h"
+#include "engine/exchange/part_formats.h"
 #include "engine/options/part_options.h"
 #include "engine/part/curved_faces.h"
 #include "engine/part/prepare_part.h"
@@ -78,14 +79,14 @@ PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartF
 
 PartFile examine_file(const fs::path& path, const ReadOptions& options, const Progress& progress)
 {
-    const std::string extension = part_extension(path);
+    const FileKind kind = require_kind_of_file(path);
     PartFile part;
-    if (is_deck("." + extension)) {
+    if (kind == FileKind::deck) {
         const PolygonSoup soup = soup_of_deck(path, options, part, progress.part(0, 0.5));
         const bool weld = part.deck->copies;
         return prepare_part(std::move(part), soup, options, weld, false, nullptr, progress.part(0.5, 1));
     }
-    if (is_cad("." + extension)) {
+    if (kind == FileKind::cad) {
         const CadContent cad = read_cad(path, options.cad, options.parts, options.unit, progress.part(0, 0.8));
         part.format = cad.format;
         part.cad = CadOrigin{cad.face,          cad.faces, cad.deflection, cad.sewing_tolerance,
@@ -102,17 +103,16 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     }
     if (!options.parts.empty())
         throw InputError("parts can be chosen from solver decks and CAD files only; this file is read as a whole");
-    const bool gltf = extension == "gltf" || extension == "glb";
-    part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
-    MeshFile file = read_mesh_file(path, extension, progress.part(0, 0.5));
+    MeshFile file = read_mesh_file(path, progress.part(0, 0.5));
+    part.unit = options.unit.value_or(file.unit.value_or(LengthUnit::mm));
     part.format = std::move(file.format);
     part.notes = std::move(file.notes);
-    if (gltf && !options.unit)
-        part.notes.push_back("lengths were read as metres, as the glTF specification says");
+    if (file.unit && !options.unit)
+        part.notes.push_back(
+            fmt::format("lengths were read in {}, as the specification of {} says", name(*file.unit), part.format));
     for (Eigen::Vector3d& p : file.soup.position)
         p *= millimetres(part.unit);
-    const bool weld = gltf || extension == "stl";
-    return prepare_part(std::move(part), file.soup, options, weld, false, nullptr, progress.part(0.5, 1));
+    return prepare_part(std::move(part), file.soup, options, file.apart, false, nullptr, progress.part(0.5, 1));
 }
 
 /// Healthy parts alone can be remeshed.

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/core/atomic_file.h"
+#include "engine/exchange/part_formats.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/report/json/attempts_json.h"
 #include "tests/robustness/layout_run.h"
@@ -183,14 +184,14 @@ int main(int argc, char** argv)
     int grids = 0, layouts = 0;
     double edge = 0;
     app.add_option("--triangles", triangles, "about how many each shape has")->capture_default_str();
-    app.add_option("--seed", seed, "of all lots")->capture_default_str();
+    app.add_option("--seed", seed, "of all random draws")->capture_default_str();
     app.add_option("--only", only, "families whose name has this in it");
     app.add_option("--folder", folder, "meshes to run as well");
     app.add_option("--edge", edge, "restraint of the outer edge, a share of the lock force")->capture_default_str();
     app.add_flag("--verbose", verbose, "a line per shape");
     app.add_flag("--unfold", unfold, "the bent parts instead, step by step, beside other methods");
-    app.add_option("--grids", grids, "grids over that many outlines of each kind instead, with corners drawn by lot");
-    app.add_option("--layouts", layouts, "patches around the holes of that many plates instead, drawn by lot");
+    app.add_option("--grids", grids, "grids over that many outlines of each kind instead, with corners drawn at random");
+    app.add_option("--layouts", layouts, "patches around the holes of that many plates drawn at random instead");
     app.add_option("--attempts", attempts, "JSON file of what was tried for each shape (tests/bench/attempts.py)");
     CLI11_PARSE(app, argc, argv);
     Tried tried;
@@ -237,9 +238,8 @@ int main(int argc, char** argv)
     std::vector<std::filesystem::path> files;
     if (!folder.empty())
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-            for (const char* ending : {".obj", ".stl", ".ply", ".off", ".gltf", ".glb"})
-                if (entry.path().extension() == ending)
-                    files.push_back(entry.path());
+            if (kind_of_file(entry.path()) == FileKind::mesh)
+                files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
         const ShapeRun run = run_shape(file, {}, flattening);

@@ -4,6 +4,7 @@
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/step_scene.h"
 #include "app/viewer/views/views.h"
+#include "engine/exchange/part_formats.h"
 
 namespace spia::viewer {
 
@@ -17,7 +18,7 @@ Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
         return result;
     }
     if (!session.part) {
-        result.empty = "Drop a part here or open one: CAD (STEP, IGES, BREP), a solver deck, STL, OBJ, PLY, OFF, glTF.";
+        result.empty = "Drop a part here or open one: " + part_format_names() + ".";
         return result;
     }
     if (shows_steps(state))

@@ -77,8 +77,9 @@ CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path,
     return CadNames(reader);
 }
 
-void read_brep(const std::filesystem::path& path, CadShape& result, const Progress& progress)
+CadNames read_brep(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
+    result.format = "BREP";
     const std::string content = file_content(path);
     if (content.substr(0, 200).find("DBRep_DrawableShape") == std::string::npos &&
         content.substr(0, 200).find("CASCADE Topology") == std::string::npos)
@@ -104,7 +105,7 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
     if (!result.shape.IsNull())
         list_faces(result);
     if (!result.face.empty())
-        return;
+        return {};
     // The kernel reads as far as it can and says nothing: a shape that is announced and not there
     // was lost on the way.
     const size_t shapes = content.find("\nTShapes");
@@ -116,10 +117,12 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
         refuse(fmt::format(
             "it was cut short or is damaged: the shapes from byte {} on cannot be read up to the end at byte {}",
             shapes + 1, content.size()));
+    return {};
 }
 
 CadNames read_step(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
+    result.format = "STEP";
     const std::string content = file_content(path);
     if (content.substr(0, 1000).find("ISO-10303-21") == std::string::npos)
         refuse("it is no STEP file (ISO-10303-21)");
@@ -134,6 +137,7 @@ CadNames read_step(const std::filesystem::path& path, CadShape& result, const Pr
 
 CadNames read_iges(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
+    result.format = "IGES";
     std::istringstream content(file_content(path));
     if (const std::string fault = fault_of_iges(content); !fault.empty())
         refuse(fault);
@@ -143,25 +147,27 @@ CadNames read_iges(const std::filesystem::path& path, CadShape& result, const Pr
     return names;
 }
 
+using Read = CadNames (*)(const std::filesystem::path& path, CadShape& result, const Progress& progress);
+
+const std::vector<FormatReader<Read>>& readers()
+{
+    static const std::vector<FormatReader<Read>> all = {{{"STEP", {".step", ".stp"}}, read_step},
+                                                        {{"IGES", {".iges", ".igs"}}, read_iges},
+                                                        {{"BREP", {".brep"}}, read_brep}};
+    return all;
+}
+
 } // namespace
+
+std::vector<FileFormat> cad_shape_formats() { return formats_of(readers()); }
 
 CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progress)
 {
-    const std::string extension = lower_case(path.extension().string());
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     CadShape result;
     CadNames names;
     try {
-        if (extension == ".brep") {
-            result.format = "BREP";
-            read_brep(path, result, progress);
-        } else if (extension == ".stp" || extension == ".step") {
-            result.format = "STEP";
-            names = read_step(path, result, progress);
-        } else {
-            result.format = "IGES";
-            names = read_iges(path, result, progress);
-        }
+        names = reader_of(readers(), path)(path, result, progress);
     } catch (const std::length_error& error) { // OpenCASCADE makes lists as long as a damaged file
                                                // says
         refuse(fmt::format("OpenCASCADE gives up on it (\"{}\")", error.what()));

@@ -7,6 +7,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/exchange/cad/cad_lost.h"
+#include "engine/exchange/file_format.h"
 #include "engine/part/cad_tree.h"
 
 namespace spia {
@@ -21,6 +22,9 @@ struct CadShape {
     std::string format;             ///< e.g. "STEP"
     std::string unit;               ///< of the file, e.g. "INCH"; empty: the format has none (BREP)
 };
+
+/// Those that read_cad_shape() reads.
+std::vector<FileFormat> cad_shape_formats();
 
 /// For .cpp files of engine/exchange that hold an OcctSession.
 /// Its format is known by the ending, in upper or lower case.

@@ -224,11 +224,7 @@ template <class Work> CadContent apart(const Work& work, std::chrono::seconds bu
 
 } // namespace
 
-bool is_cad(std::string_view extension)
-{
-    return extension == ".step" || extension == ".stp" || extension == ".iges" || extension == ".igs" ||
-           extension == ".brep";
-}
+std::vector<FileFormat> cad_formats() { return cad_shape_formats(); }
 
 CadContent read_cad(const std::filesystem::path& path, const CadOptions& options, std::span<const std::string> wanted,
                     std::optional<LengthUnit> unit, const Progress& progress)

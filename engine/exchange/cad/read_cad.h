@@ -10,6 +10,7 @@
 
 #include "engine/core/length_unit.h"
 #include "engine/core/progress.h"
+#include "engine/exchange/file_format.h"
 #include "engine/mesh/solid/stated_curve.h"
 #include "engine/mesh/solid/stated_surface.h"
 #include "engine/mesh/soup.h"
@@ -76,8 +77,8 @@ struct CadContent {
     std::vector<int> overlapping;
 };
 
-/// Whether the ending (lower case, with its dot) is .step, .stp, .iges, .igs or .brep.
-bool is_cad(std::string_view extension);
+/// Those that read_cad() reads.
+std::vector<FileFormat> cad_formats();
 
 /// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one
 /// file at a time. That is done in a process of its own (in_child()), for OpenCASCADE crashes and

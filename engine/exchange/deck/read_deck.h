@@ -1,17 +1,18 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/core/progress.h"
 #include "engine/exchange/deck/deck.h"
 #include "engine/exchange/deck/deck_lines.h"
+#include "engine/exchange/file_format.h"
 
 namespace spia {
 
-/// Whether the ending (lower case, with its dot) is that of a solver deck: .k .key .dyn LS-DYNA
-/// keyword, .bdf .nas .dat Nastran bulk data, .inp Abaqus and CalculiX, .msh Gmsh 2 and 4 (text),
-/// .rad Radioss starter.
-bool is_deck(std::string_view extension);
+/// Those that read_deck() reads: LS-DYNA keyword, Nastran bulk data, Abaqus and CalculiX, Gmsh 2 and
+/// 4 (text), Radioss starter.
+std::vector<FileFormat> deck_formats();
 
 /// Reads nodes, shells, parts, thicknesses and material names of a deck and of the files that it
 /// includes; what else is in it is passed over, and a note says so. A checkpoint every few thousand

@@ -1,12 +1,7 @@
 #include "engine/exchange/mesh/mesh_file.h"
 
-#include <fmt/core.h>
-
-#include "engine/core/error.h"
 #include "engine/core/file_content.h"
 #include "engine/core/text.h"
-#include "engine/exchange/cad/read_cad.h"
-#include "engine/exchange/deck/read_deck.h"
 #include "engine/exchange/mesh/checked_file.h"
 #include "engine/exchange/mesh/read_gltf.h"
 #include "engine/exchange/mesh/read_openmesh.h"
@@ -14,44 +9,50 @@
 namespace spia {
 namespace {
 
-CheckedFile check(std::string_view extension, std::string_view content)
+/// @param progress  once the content is there
+using Read = MeshFile (*)(const std::filesystem::path& path, const std::string& content, const Progress& progress);
+
+template <CheckedFile (*check)(std::string_view)>
+MeshFile read_checked(const std::filesystem::path&, const std::string& content, const Progress& progress)
 {
-    if (extension == "obj")
-        return check_obj(content);
-    if (extension == "off")
-        return check_off(content);
-    if (extension == "ply")
-        return check_ply(content);
-    return check_stl(content);
+    const CheckedFile checked = check(content);
+    progress.checkpoint(0.5, "reading the file");
+    return {read_openmesh(checked), checked.format, checked.notes};
+}
+
+MeshFile read_stl(const std::filesystem::path& path, const std::string& content, const Progress& progress)
+{
+    MeshFile file = read_checked<check_stl>(path, content, progress);
+    file.apart = true;
+    return file;
+}
+
+MeshFile read_scene(const std::filesystem::path& path, const std::string& content, const Progress& progress)
+{
+    const bool binary = lower_case(path.extension().string()) == ".glb";
+    GltfContent gltf = read_gltf(path, content, progress);
+    return {std::move(gltf.soup), binary ? "glTF (binary)" : "glTF (text)", std::move(gltf.notes), LengthUnit::m, true};
+}
+
+const std::vector<FormatReader<Read>>& readers()
+{
+    static const std::vector<FormatReader<Read>> all = {{{"STL", {".stl"}}, read_stl},
+                                                        {{"OBJ", {".obj"}}, read_checked<check_obj>},
+                                                        {{"PLY", {".ply"}}, read_checked<check_ply>},
+                                                        {{"OFF", {".off"}}, read_checked<check_off>},
+                                                        {{"glTF", {".gltf", ".glb"}}, read_scene}};
+    return all;
 }
 
 } // namespace
 
-std::string part_extension(const std::filesystem::path& path)
-{
-    const std::string extension = lower_case(path.extension().string());
-    for (const char* known : {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"})
-        if (extension == known)
-            return extension.substr(1);
-    if (is_deck(extension) || is_cad(extension))
-        return extension.substr(1);
-    throw InputError(fmt::format(
-        "the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files, "
-        "from CAD files .step, .stp, .iges, .igs and .brep, and from solver decks .k, .key, .dyn, .bdf, .nas, .dat, .inp, .msh and .rad",
-        extension));
-}
+std::vector<FileFormat> mesh_formats() { return formats_of(readers()); }
 
-MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view extension, const Progress& progress)
+MeshFile read_mesh_file(const std::filesystem::path& path, const Progress& progress)
 {
     const std::string content = file_content(path);
     progress.checkpoint(0.2, "reading the file");
-    if (extension == "gltf" || extension == "glb") {
-        GltfContent gltf = read_gltf(path, content, progress.part(0.2, 1));
-        return {std::move(gltf.soup), extension == "glb" ? "glTF (binary)" : "glTF (text)", std::move(gltf.notes)};
-    }
-    const CheckedFile checked = check(extension, content);
-    progress.checkpoint(0.6, "reading the file");
-    return {read_openmesh(checked), checked.format, checked.notes};
+    return reader_of(readers(), path)(path, content, progress.part(0.2, 1));
 }
 
 } // namespace spia

@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "engine/core/length_unit.h"
 #include "engine/core/progress.h"
+#include "engine/exchange/file_format.h"
 #include "engine/mesh/soup.h"
 
 namespace spia {
@@ -14,15 +16,15 @@ struct MeshFile {
     PolygonSoup soup;
     std::string format;
     std::vector<std::string> notes;
+    std::optional<LengthUnit> unit = {}; ///< that the specification of the format states
+    bool apart = false;                  ///< faces may have corners of their own where they meet
 };
 
-/// The ending of a file that parts are read from, in lower case and without its dot: of a mesh file
-/// stl, obj, ply, off, gltf or glb, else of a deck (is_deck()) or a CAD file (is_cad()).
-/// @throws InputError  it is none of these
-std::string part_extension(const std::filesystem::path& path);
+/// Those that read_mesh_file() reads.
+std::vector<FileFormat> mesh_formats();
 
-/// @param extension  of a mesh file
+/// @param path  of one of the mesh_formats()
 /// @throws InputError  the file is damaged
-MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view extension, const Progress& progress);
+MeshFile read_mesh_file(const std::filesystem::path& path, const Progress& progress);
 
 } // namespace spia

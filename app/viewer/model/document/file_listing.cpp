@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/read_number.h"
-#include "engine/core/text.h"
-#include "engine/exchange/cad/read_cad.h"
-#include "engine/exchange/deck/read_deck.h"
+#include "engine/exchange/part_formats.h"
 
 namespace spia::viewer {
 namespace {
@@ -54,11 +52,7 @@ ListedFile look_into(const std::filesystem::path& file, const Progress& progress
     return listed;
 }
 
-bool has_choices(const std::filesystem::path& file)
-{
-    const std::string ending = lower_case(file.extension().string());
-    return is_cad(ending) || is_deck(ending);
-}
+bool has_choices(const std::filesystem::path& file) { return kind_of_file(file) != FileKind::mesh; }
 
 int proposed_item(const FileItems& items)
 {

@@ -12,6 +12,7 @@
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/text.h"
+#include "engine/exchange/part_formats.h"
 
 namespace fs = std::filesystem;
 
@@ -27,12 +28,7 @@ struct Wording {
 const Wording& wording(FileDialog::Purpose purpose)
 {
     using P = FileDialog::Purpose;
-    static const Wording part{"Open a part",
-                              "Open",
-                              {".stl", ".obj", ".ply", ".off", ".gltf", ".glb",  ".k",   ".key",  ".dyn", ".bdf",
-                               ".nas", ".dat", ".inp", ".msh", ".rad",  ".step", ".stp", ".iges", ".igs", ".brep"},
-                              false,
-                              false};
+    static const Wording part{"Open a part", "Open", part_endings(), false, false};
     static const Wording project{"Open a project", "Open", {".spia"}, false, false};
     static const Wording material{"Choose a material file", "Choose", {".json"}, false, false};
     static const Wording test{"Choose a tensile test", "Choose", {".csv", ".txt", ".tsv", ".dat"}, false, false};

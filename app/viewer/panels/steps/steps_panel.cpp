@@ -11,6 +11,7 @@
 #include "app/viewer/panels/steps/surface_step.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/text.h"
+#include "engine/exchange/part_formats.h"
 #include "engine/options/sheet_options.h"
 #include "engine/options/surface_options.h"
 #include "engine/report/text/number_text.h"
@@ -56,8 +57,7 @@ void part_step(Frame& frame)
                      : light(frame, ChainStep::part, status(frame, Stage::read, session.part != nullptr)));
     if (ImGui::Button("Open..."))
         choose_part(frame);
-    tooltip("CAD (STEP, IGES, BREP), solver decks (LS-DYNA, Nastran, Abaqus, Gmsh, Radioss), STL, OBJ, PLY, OFF, glTF. "
-            "You can also drop a file on the window.");
+    tooltip(part_format_names() + ". You can also drop a file on the window.");
     if (!session.part) {
         if (frame.state.refused)
             coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), session.file.filename().string());
