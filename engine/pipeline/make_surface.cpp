@@ -168,7 +168,7 @@ SurfaceStage several_patches(const Session& session, const Progress& progress)
         for (int& v : cut)
             v = vertex_in_mesh(part, v);
     PatchesFitOptions options;
-    options.tolerance = best_tolerance(session);
+    options.tolerance = surface_tolerance(session);
     options.degree = session.options.interpolate.degree_u;
     options.max_control_points = session.options.max_control_points;
     options.smooth_joins = layout.smooth_joins;
@@ -233,8 +233,8 @@ void make_best_surface(Session& session, const Progress& progress)
     if (session.lifted) {
         constexpr int most_of_one = 5000; // of 25 parts none that one patch held needed more than
                                           // 552, so that a long search is for nothing
-        const OnePatch asked{best_tolerance(session), std::min({session.options.max_control_points, most_of_one,
-                                                                enough_control_points(session.part->mesh)})};
+        const OnePatch asked{surface_tolerance(session), std::min({session.options.max_control_points, most_of_one,
+                                                                   enough_control_points(session.part->mesh)})};
         one = one_patch(session, asked, progress.part(0, 0.4));
         against = fault(*one);
     }
@@ -290,7 +290,7 @@ int enough_control_points(const TriMesh& part)
     return std::max(few, part.vertices());
 }
 
-double best_tolerance(const Session& session)
+double surface_tolerance(const Session& session)
 {
     return session.options.tolerance.value_or(1e-3 * bounding_diagonal(session.part->mesh));
 }

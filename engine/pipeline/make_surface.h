@@ -6,7 +6,7 @@ namespace spia {
 
 /// mm, that the surface may be from the part, where the program chooses what it is made of or it
 /// has several patches: the tolerance that was asked for, else 1/1000 of the part's diagonal.
-double best_tolerance(const Session& session);
+double surface_tolerance(const Session& session);
 
 /// So many control points a surface may have before they are much for analysis: as many as
 /// the part has vertices, and some hundreds whatever the mesh.

@@ -30,11 +30,8 @@ void ViewerModel::Apply::run_of_change(Stage to, const std::string& title, bool 
     dismiss_failed_run(state.messages);
     const bool begins = !model.chain_job_;
     model.run_to(to, title);
-    if (begins && model.chain_job_) {
-        model.run_of_change_ = true;
-        model.changes_of_run_ = 1;
-        model.unsaved_before_ = unsaved;
-    }
+    if (begins && model.chain_job_)
+        model.taken_back_ = {true, 1, unsaved};
 }
 
 void ViewerModel::Apply::operator()(const SetUnit& action)
@@ -130,13 +127,13 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     }
     model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Updating all");
     if (model.chain_job_)
-        model.unsaved_before_ = unsaved;
+        model.taken_back_.unsaved = unsaved;
 }
 
 void ViewerModel::Apply::operator()(const CancelJob&)
 {
     model.next_.reset();
-    model.superseded_ = false;
+    model.running_.superseded = false;
     model.next_in_one_step_ = false;
     model.blank_next_.reset();
     model.steps_next_ = false;
@@ -210,7 +207,7 @@ void ViewerModel::Apply::take_one_patch()
     if (!std::exchange(session.options.best_surface, false))
         return;
     if (session.part && !session.options.tolerance)
-        session.options.tolerance = best_tolerance(session);
+        session.options.tolerance = surface_tolerance(session);
     if (session.surface)
         model.say(Severity::hint, "The surface is made of one patch from now on, see the step NURBS surface.");
 }

@@ -36,8 +36,7 @@ void ViewerModel::Apply::end_runs()
     model.next_.reset();
     model.next_in_one_step_ = false;
     model.blank_next_.reset();
-    model.unsaved_before_.reset();
-    model.run_of_change_ = false;
+    model.taken_back_ = {};
     model.dragging_ = false;
     state.job = JobView{};
 }
@@ -50,11 +49,11 @@ void ViewerModel::Apply::begin_with(Opening opening)
     const std::string title = "Opening " + opening.document.session.file.filename().string();
     if (session.part || opening.otherwise) {
         model.opening_beside_ = std::move(opening);
-        model.start(Stage::read, Stage::read, title, model.opening_beside_->document);
+        model.start_chain(Stage::read, Stage::read, title, model.opening_beside_->document);
         return;
     }
     model.replace_document(std::move(opening));
-    model.start(Stage::read, Stage::read, title, document);
+    model.start_chain(Stage::read, Stage::read, title, document);
 }
 
 void ViewerModel::Apply::require_no_export() const

@@ -101,7 +101,7 @@ bool ViewerModel::take_opening(const ChainResult& result)
     Opening opening = std::move(*std::exchange(opening_beside_, std::nullopt));
     if (result.session.part) {
         replace_document(std::move(opening));
-        depth_at_start_ = state_.history.depth();
+        running_.depth_at_start = state_.history.depth();
         return true;
     }
     opening_ = false;

@@ -70,7 +70,7 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     Document& document = state_.document;
     if (result.cancelled)
         leave_out_grid_on_the_way(result, document);
-    const bool superseded = std::exchange(superseded_, false);
+    const bool superseded = std::exchange(running_.superseded, false);
     if (superseded) { // nobody wants to know how it ended
         result.cancelled = false;
         result.failed.reset();
@@ -81,12 +81,12 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     for (const std::string& lost : take_over(document, result))
         say(Severity::warning, lost, about_results(state_));
     // What was picked during the run is taken back without it.
-    state_.history.update_since(depth_at_start_, [&](Document& changed) { take_over(changed, result); });
+    state_.history.update_since(running_.depth_at_start, [&](Document& changed) { take_over(changed, result); });
     keep_before(result, quads, surface);
     if (superseded) {
-        run_of_change_ &= document.session.grid == before.grid && document.session.blank == before.blank;
-        if (!run_of_change_)
-            unsaved_before_.reset();
+        taken_back_.change &= document.session.grid == before.grid && document.session.blank == before.blank;
+        if (!taken_back_.change)
+            taken_back_.unsaved.reset();
     }
     const bool taken_back = !superseded && forget_run_without_result(result, before);
     opening_ = false;
@@ -136,23 +136,22 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
 /// it. @returns whether it was
 bool ViewerModel::forget_run_without_result(const ChainResult& result, const Session& before)
 {
-    const auto unsaved_before = std::exchange(unsaved_before_, std::nullopt);
-    const bool of_change = std::exchange(run_of_change_, false);
+    const TakenBack back = std::exchange(taken_back_, {});
     const Session& now = result.session;
-    if (!unsaved_before || !(result.cancelled || result.failed) ||
-        state_.history.depth() != (of_change ? depth_noted_ : depth_at_start_) || now.part != before.part ||
-        now.blank != before.blank || now.grid != before.grid)
+    if (!back.unsaved || !(result.cancelled || result.failed) ||
+        state_.history.depth() != (back.change ? running_.depth_noted : running_.depth_at_start) ||
+        now.part != before.part || now.blank != before.blank || now.grid != before.grid)
         return false;
-    if (of_change) { // one that has failed stays, for its advice to be followed
+    if (back.change) { // one that has failed stays, for its advice to be followed
         if (!result.cancelled || now.lifted != before.lifted || now.surface != before.surface)
             return false;
-        for (size_t k = 0; k < changes_of_run_; ++k)
+        for (size_t k = 0; k < back.changes; ++k)
             state_.history.undo(state_.document);
         state_.before = {};
         return true;
     }
     state_.history.forget_last();
-    state_.document.unsaved &= *unsaved_before;
+    state_.document.unsaved &= *back.unsaved;
     if (now.blank)
         state_.document.session.options.steps = state_.document.made_with.steps;
     else

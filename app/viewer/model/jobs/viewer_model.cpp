@@ -94,13 +94,12 @@ void ViewerModel::follow_doubts()
         std::make_shared<const std::vector<Doubt>>(find_doubts(state_.document, state_.preferences.lengths));
 }
 
-void ViewerModel::start(Stage from, Stage to, std::string title, const Document& document)
+void ViewerModel::start_chain(Stage from, Stage to, std::string title, const Document& document)
 {
     live_ = std::make_shared<Live>();
     cancelled_at_.reset();
     progress_from_ = 0;
     progress_to_ = 1;
-    depth_at_start_ = depth_noted_ = state_.history.depth();
     Session session = document.session;
     if (session.options.steps) { // the tools are not in them
         const bool skins = session.options.flatten.skins;
@@ -112,8 +111,8 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
         session.options.grid.columns = session.options.grid.rows = 0;
         session.options.grid.cells = std::min(session.options.grid.cells, few);
     }
-    running_chain_ = {session.options, to, dragging_};
-    superseded_ = false;
+    const size_t depth = state_.history.depth();
+    running_ = {session.options, to, dragging_, depth, depth};
     state_.job = JobView{};
     state_.job.running = true;
     state_.job.title = std::move(title);
@@ -137,10 +136,9 @@ bool ViewerModel::is_superseded() const
 {
     if (opening_ || opening_beside_)
         return false;
-    if (running_chain_.coarse) // a coarse grid is of use as long as its corner is dragged
+    if (running_.coarse) // a coarse grid is of use as long as its corner is dragged
         return !dragging_;
-    return running_chain_.to > Stage::solve &&
-           !makes_same_surface(running_chain_.options, state_.document.session.options);
+    return running_.to > Stage::solve && !makes_same_surface(running_.options, state_.document.session.options);
 }
 
 void ViewerModel::run_to(Stage to, const std::string& title)
@@ -160,10 +158,10 @@ void ViewerModel::run_to(Stage to, const std::string& title)
     if (chain_job_) { // the newest wish counts, from what is there then
         next_ = std::max(next_.value_or(to), to);
         if (is_superseded()) {
-            const size_t changes = state_.history.depth() - std::exchange(depth_noted_, state_.history.depth());
-            run_of_change_ &= changes <= 1; // else something else was done meanwhile
-            changes_of_run_ += changes;
-            superseded_ = true;
+            const size_t changes = state_.history.depth() - std::exchange(running_.depth_noted, state_.history.depth());
+            taken_back_.change &= changes <= 1; // else something else was done meanwhile
+            taken_back_.changes += changes;
+            running_.superseded = true;
             chain_job_->cancel();
             cancelled_at_ = cancelled_at_.value_or(std::chrono::steady_clock::now());
         }
@@ -182,7 +180,7 @@ void ViewerModel::run_to(Stage to, const std::string& title)
         return;
     // Blank and strains can be looked at while grid and surface are still being made.
     const Stage first = *from <= Stage::solve && to > Stage::solve ? Stage::solve : to;
-    start(*from, first, title, state_.document);
+    start_chain(*from, first, title, state_.document);
     progress_to_ = share_of_time(*from, first) / share_of_time(*from, to);
     if (first < to)
         next_ = to;
@@ -202,7 +200,7 @@ bool ViewerModel::poll()
         // A fit whose next round has more to do than the last one goes back; its bar stands.
         view.fraction = std::max(view.fraction, std::lerp(progress_from_, progress_to_, chain_job_->fraction()));
         view.step = chain_job_->step();
-        view.cancelling = chain_job_->cancelling() && !superseded_;
+        view.cancelling = chain_job_->cancelling() && !running_.superseded;
         if (auto blank = live_->blank.fetch()) {
             const bool first = !view.blank && !state_.document.session.blank;
             view.blank = std::move(*blank);

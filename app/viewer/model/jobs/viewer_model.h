@@ -91,7 +91,7 @@ private:
         std::string note = {};                  ///< said as soon as it is open; empty: nothing
     };
 
-    void start(Stage from, Stage to, std::string title, const Document& document);
+    void start_chain(Stage from, Stage to, std::string title, const Document& document);
     void replace_document(Opening opening);
     void take_result(ChainResult result, const std::string& title);
     bool take_opening(const ChainResult& result);
@@ -154,20 +154,26 @@ private:
     std::optional<BlankNext> blank_next_;
     bool keep_step_ = false;    ///< the one shown is that of a project
     bool keep_cameras_ = false; ///< those of a project
-    size_t depth_at_start_ = 0; ///< of the history, when the running job began
     bool dragging_ = false;     ///< a corner: the grid is coarse
+    /// The running job of the chain.
     struct RunningChain {
-        SessionOptions options;
+        SessionOptions options; ///< that it was begun with
         Stage to;
-        bool coarse = false; ///< for a corner that is dragged
+        bool coarse = false;       ///< for a corner that is dragged
+        size_t depth_at_start = 0; ///< of the history, when it began
+        size_t depth_noted = 0;    ///< when it began or its options were last seen to change
+        bool superseded = false;   ///< it was cancelled for one with newer options
     };
-    RunningChain running_chain_;         ///< what the running job of the chain was begun with
-    bool superseded_ = false;            ///< it was cancelled for one with newer options
-    size_t depth_noted_ = 0;             ///< of the history, when it began or its options were last seen to change
-    size_t changes_of_run_ = 1;          ///< of the options, that a cancel takes back, see run_of_change_
-    std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
-    std::optional<Stage> next_;          ///< run this far when the running job has ended
-    bool next_in_one_step_ = false;      ///< and not from the blank of the steps
+    RunningChain running_;
+    /// What a cancel takes back, also of a run that took the place of one with older options.
+    struct TakenBack {
+        bool change = false;         ///< the change of options whose result is being made
+        size_t changes = 1;          ///< and those made meanwhile
+        std::optional<bool> unsaved; ///< before the run, if the run is a change of its own
+    };
+    TakenBack taken_back_;
+    std::optional<Stage> next_;                  ///< run this far when the running job has ended
+    bool next_in_one_step_ = false;              ///< and not from the blank of the steps
     double progress_from_ = 0, progress_to_ = 1; ///< of what was asked for, that of the running job
     int messages_posted_ = 0;                    ///< messages so far
     DoubtsOf doubts_of_;                         ///< what the doubts of the state were found in
@@ -181,8 +187,6 @@ private:
                                           ///< one that is opened may be it
     std::optional<ChainResult> waiting_;  ///< what was read for it, while the user is asked
     bool asks_ = false;                   ///< see ask_before_replacing()
-    bool run_of_change_ = false;          ///< the running job makes what the last change of options
-                                          ///< asks for
     std::optional<Project> project_;      ///< waits for its part
     Pickers pickers_;
     std::optional<Probe> under_mouse_;

@@ -31,7 +31,7 @@ void fit_editor(Frame& frame, FitChoice fit)
     bool limited = fit.tolerance.has_value();
     // The one in use, if the program has chosen it: a tick changes no surface.
     const double offered = frame.state.preferences.tolerance_mm.value_or(
-        patches ? best_tolerance(frame.state.document.session) : usual_tolerance);
+        patches ? surface_tolerance(frame.state.document.session) : usual_tolerance);
     if (ImGui::Checkbox("Within a tolerance", &limited)) {
         fit.tolerance = limited ? std::optional(option::tolerance.range->nearest(offered)) : std::nullopt;
         changed = true;
