@@ -366,9 +366,8 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
     }
 }
 
-} // namespace
-
-int unfold(const UnfoldArguments& arguments)
+/// Refuses what cannot be done before the work begins.
+void require_possible(const UnfoldArguments& arguments)
 {
     if (arguments.automatic == !arguments.script.empty())
         throw InputError("give either --script FILE or --auto");
@@ -391,14 +390,49 @@ int unfold(const UnfoldArguments& arguments)
     redone_from(arguments.redo.empty() ? "auto" : arguments.redo);
     for (const auto& file : {arguments.to_part, arguments.to_blank})
         if (!file.empty())
-            read_line_file(file); // before the work
+            read_line_file(file);
     if (!arguments.folder.empty())
         prepare_folder(arguments.folder);
     if (!arguments.json.empty())
         require_writable(arguments.json);
-    FlattenOptions options = flatten_options(arguments);
     require_one_surface(arguments.k_factor, arguments.read.skin);
-    wanted_k(arguments); // before the work
+    wanted_k(arguments);
+}
+
+void print_states_and_bends(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,
+                            const BendTable& table)
+{
+    print_states(run, part.mesh, bounding_diagonal(part.mesh));
+    if (!run.blank)
+        return;
+    print_bends(table);
+    const auto laid = [](const SheetBend& bend) { return bend.laid; };
+    if (!arguments.folder.empty() && std::ranges::any_of(table.bends, laid))
+        say("bends     only the blank is laid so: the states of the steps keep the lengths of the part's mesh\n");
+}
+
+/// Of part, steps and surface, each once.
+std::vector<std::string> all_shortcomings(const PartFile& part, const UnfoldRun& run,
+                                          const std::vector<std::string>& findings,
+                                          const std::optional<ChainRun>& surface)
+{
+    auto poorer = part.doubts;
+    for (std::string& text : spia::shortcomings(run, bounding_diagonal(part.mesh), findings))
+        poorer.push_back(std::move(text));
+    if (surface)
+        for (std::string& text : spia::shortcomings(surface->session))
+            // both doubt the part
+            if (std::find(poorer.begin(), poorer.end(), text) == poorer.end())
+                poorer.push_back(std::move(text));
+    return poorer;
+}
+
+} // namespace
+
+int unfold(const UnfoldArguments& arguments)
+{
+    require_possible(arguments);
+    FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
     require_deck_ids(arguments.formats, part);
     for (const std::string& line : reading_notes(part))
@@ -451,27 +485,14 @@ int unfold(const UnfoldArguments& arguments)
     if (!arguments.json.empty())
         write_atomically(arguments.json, unfold_report_json(arguments.part, part, map, steps, run, findings, files,
                                                             both, run.blank ? &fibre.table : nullptr));
-    print_states(run, part.mesh, bounding_diagonal(part.mesh));
-    if (run.blank) {
-        print_bends(fibre.table);
-        const auto laid = [](const SheetBend& bend) { return bend.laid; };
-        if (!arguments.folder.empty() && std::any_of(fibre.table.bends.begin(), fibre.table.bends.end(), laid))
-            say("bends     only the blank is laid so: the states of the steps keep the lengths of the part's mesh\n");
-    }
+    print_states_and_bends(arguments, part, run, fibre.table);
     if (polished)
         print_polish(*polished);
     if (surface && surface->session.blank)
         print_summary(surface->session);
     for (const auto& file : files)
         say("wrote     {}\n", file.string());
-    auto poorer = part.doubts;
-    for (std::string& text : spia::shortcomings(run, bounding_diagonal(part.mesh), findings))
-        poorer.push_back(std::move(text));
-    if (surface)
-        for (std::string& text : spia::shortcomings(surface->session))
-            // both doubt the part
-            if (std::find(poorer.begin(), poorer.end(), text) == poorer.end())
-                poorer.push_back(std::move(text));
+    const std::vector<std::string> poorer = all_shortcomings(part, run, findings, surface);
     for (const std::string& text : poorer)
         say("WARNING   {}\n", text);
     if (!run.failure.empty())

@@ -81,6 +81,187 @@ void region_menu(Frame& frame)
     ImGui::EndMenu();
 }
 
+void recent_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("Recent", !frame.ui.recent.empty()))
+        return;
+    for (const auto& file : frame.ui.recent)
+        if (ImGui::MenuItem(file.string().c_str())) {
+            if (file.extension() == project_ending)
+                frame.actions.push(OpenProject{file});
+            else if (has_choices(file))
+                frame.actions.push(ListFile{file});
+            else
+                frame.actions.push(OpenPart{file, ""});
+        }
+    ImGui::EndMenu();
+}
+
+void file_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("File"))
+        return;
+    const ViewerState& state = frame.state;
+    if (ImGui::MenuItem("Open part...", "Ctrl+O"))
+        choose_part(frame);
+    if (ImGui::MenuItem("Open project..."))
+        choose_project(frame);
+    recent_menu(frame);
+    ImGui::Separator();
+    const bool part = state.document.session.part != nullptr;
+    if (ImGui::MenuItem("Save project", "Ctrl+S", false, part)) {
+        if (state.project.empty())
+            choose_project_name(frame);
+        else
+            frame.actions.push(SaveProject{});
+    }
+    if (ImGui::MenuItem("Save project as...", nullptr, false, part))
+        choose_project_name(frame);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Export...", "Ctrl+E", false, state.document.session.blank != nullptr))
+        frame.ui.show_export = true;
+    if (ImGui::MenuItem("Report (HTML)...", nullptr, false, state.document.session.blank != nullptr))
+        frame.ui.show_report = true;
+    if (ImGui::MenuItem("Picture...", nullptr, false, part))
+        frame.ui.show_picture = true;
+    if (ImGui::MenuItem("Animation...", nullptr, false,
+                        part && (state.document.session.blank || steps_done(state.document) > 0)))
+        frame.ui.show_animation = true;
+    ImGui::Separator();
+    if (ImGui::MenuItem("Quit", "Ctrl+Q"))
+        frame.actions.push(Quit{});
+    ImGui::EndMenu();
+}
+
+void edit_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("Edit"))
+        return;
+    const ViewerState& state = frame.state;
+    const std::string undo = state.history.undo_name(), redo = state.history.redo_name();
+    if (ImGui::MenuItem(undo.empty() ? "Undo" : ("Undo: " + undo).c_str(), "Ctrl+Z", false,
+                        !undo.empty() && !state.job.running))
+        frame.actions.push(Undo{});
+    if (ImGui::MenuItem(redo.empty() ? "Redo" : ("Redo: " + redo).c_str(), "Ctrl+Y", false,
+                        !redo.empty() && !state.job.running))
+        frame.actions.push(Redo{});
+    ImGui::Separator();
+    const bool some = !state.document.selected.empty();
+    if (ImGui::MenuItem("Grow selection", in_view("+"), false, some))
+        frame.actions.push(GrowSelection{});
+    if (ImGui::MenuItem("Shrink selection", in_view("-"), false, some))
+        frame.actions.push(ShrinkSelection{});
+    if (ImGui::MenuItem("Invert selection", in_view("I"), false, state.document.session.part != nullptr))
+        frame.actions.push(InvertSelection{});
+    if (ImGui::MenuItem("Clear selection", "Esc", false, some || !state.document.vertices.empty()))
+        frame.actions.push(ClearSelection{});
+    region_menu(frame);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Materials..."))
+        open_material_editor(frame);
+    if (ImGui::MenuItem("Keep result as reference", nullptr, false, state.document.session.blank != nullptr))
+        frame.actions.push(KeepReference{});
+    if (ImGui::MenuItem("Remove reference", nullptr, false, state.reference != nullptr))
+        frame.actions.push(DropReference{});
+    ImGui::Separator();
+    if (ImGui::MenuItem("Preferences...", "Ctrl+,"))
+        frame.ui.show_preferences = true;
+    ImGui::EndMenu();
+}
+
+void look_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("Look from"))
+        return;
+    constexpr std::tuple<const char*, const char*, StandardView> looks[] = {
+        {"Top", in_view("1"), StandardView::top},
+        {"Front", in_view("2"), StandardView::front},
+        {"Right", in_view("3"), StandardView::right},
+        {"Isometric", in_view("4"), StandardView::isometric},
+        {"Bottom", "", StandardView::bottom},
+        {"Back", "", StandardView::back},
+        {"Left", "", StandardView::left}};
+    for (const auto& [label, key, from] : looks)
+        if (ImGui::MenuItem(label, key))
+            frame.actions.push(LookFrom{View::part, from});
+    ImGui::EndMenu();
+}
+
+/// Which views are shown. @returns whether it was changed
+bool shown_views(ViewSettings& view)
+{
+    bool changed = false;
+    constexpr std::pair<const char*, std::optional<View>> shown[] = {{"Four views", std::nullopt},
+                                                                     {"Part alone", View::part},
+                                                                     {"Blank alone", View::blank},
+                                                                     {"Quad mesh alone", View::quads},
+                                                                     {"NURBS surface alone", View::surface}};
+    for (const auto& [label, which] : shown)
+        if (ImGui::MenuItem(label, nullptr, view.maximised == which)) {
+            view.maximised = which;
+            changed = true;
+        }
+    return changed;
+}
+
+void panel_items(Frame& frame)
+{
+    const bool narrow = is_narrow(ImGui::GetIO().DisplaySize.x, frame.ui.scale);
+    SidePanels& panels = frame.ui.panels;
+    for (const auto& [label, key, which] :
+         {std::tuple{"Steps panel", "F2", SidePanels::steps}, {"Inspect panel", "F3", SidePanels::inspect}})
+        if (ImGui::MenuItem(label, key, panels.shown(which, narrow)))
+            panels.toggle(which, narrow);
+}
+
+void view_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("View"))
+        return;
+    const ViewerState& state = frame.state;
+    ViewSettings view = state.view;
+    bool changed = false;
+    if (ImGui::MenuItem("Fit all", in_view("F")))
+        frame.actions.push(FitView{});
+    if (ImGui::MenuItem("Perspective", in_view("5"), view.camera[0].perspective)) {
+        const bool perspective = !view.camera[0].perspective;
+        for (const View v : all_views)
+            if (v != View::blank)
+                view.camera[size_t(v)].perspective = perspective;
+        changed = true;
+    }
+    look_menu(frame);
+    ImGui::Separator();
+    changed |= shown_views(view);
+    ImGui::Separator();
+    mouse_menu(frame);
+    if (ImGui::MenuItem("Clip", in_view("H"), view.clip.on, state.document.session.part != nullptr))
+        toggle_clip(frame);
+    changed |= ImGui::MenuItem("Dark theme", in_view("T"), &view.dark);
+    changed |= ImGui::MenuItem("Rotate 3D views together", nullptr, &view.linked);
+    changed |= ImGui::MenuItem("Triangle edges", in_view("E"), &view.edges);
+    changed |= ImGui::MenuItem("Feature lines", nullptr, &view.features);
+    ImGui::Separator();
+    panel_items(frame);
+    if (changed)
+        frame.actions.push(SetViewSettings{view});
+    ImGui::EndMenu();
+}
+
+void help_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("Help"))
+        return;
+    if (ImGui::MenuItem("Manual"))
+        open_manual(frame.ui.manual);
+    ImGui::MenuItem("Keyboard and mouse", "F1", &frame.ui.show_shortcuts);
+    ImGui::MenuItem("Messages", nullptr, &frame.ui.show_messages);
+    ImGui::Separator();
+    if (ImGui::MenuItem("About..."))
+        frame.ui.show_about = true;
+    ImGui::EndMenu();
+}
+
 } // namespace
 
 void menu_bar(Frame& frame)
@@ -88,146 +269,11 @@ void menu_bar(Frame& frame)
     const ViewerState& state = frame.state;
     if (!ImGui::BeginMenuBar())
         return;
-    if (ImGui::BeginMenu("File")) {
-        if (ImGui::MenuItem("Open part...", "Ctrl+O"))
-            choose_part(frame);
-        if (ImGui::MenuItem("Open project..."))
-            choose_project(frame);
-        if (ImGui::BeginMenu("Recent", !frame.ui.recent.empty())) {
-            for (const auto& file : frame.ui.recent)
-                if (ImGui::MenuItem(file.string().c_str())) {
-                    if (file.extension() == project_ending)
-                        frame.actions.push(OpenProject{file});
-                    else if (has_choices(file))
-                        frame.actions.push(ListFile{file});
-                    else
-                        frame.actions.push(OpenPart{file, ""});
-                }
-            ImGui::EndMenu();
-        }
-        ImGui::Separator();
-        const bool part = state.document.session.part != nullptr;
-        if (ImGui::MenuItem("Save project", "Ctrl+S", false, part)) {
-            if (state.project.empty())
-                choose_project_name(frame);
-            else
-                frame.actions.push(SaveProject{});
-        }
-        if (ImGui::MenuItem("Save project as...", nullptr, false, part))
-            choose_project_name(frame);
-        ImGui::Separator();
-        if (ImGui::MenuItem("Export...", "Ctrl+E", false, state.document.session.blank != nullptr))
-            frame.ui.show_export = true;
-        if (ImGui::MenuItem("Report (HTML)...", nullptr, false, state.document.session.blank != nullptr))
-            frame.ui.show_report = true;
-        if (ImGui::MenuItem("Picture...", nullptr, false, part))
-            frame.ui.show_picture = true;
-        if (ImGui::MenuItem("Animation...", nullptr, false,
-                            part && (state.document.session.blank || steps_done(state.document) > 0)))
-            frame.ui.show_animation = true;
-        ImGui::Separator();
-        if (ImGui::MenuItem("Quit", "Ctrl+Q"))
-            frame.actions.push(Quit{});
-        ImGui::EndMenu();
-    }
-    if (ImGui::BeginMenu("Edit")) {
-        const std::string undo = state.history.undo_name(), redo = state.history.redo_name();
-        if (ImGui::MenuItem(undo.empty() ? "Undo" : ("Undo: " + undo).c_str(), "Ctrl+Z", false,
-                            !undo.empty() && !state.job.running))
-            frame.actions.push(Undo{});
-        if (ImGui::MenuItem(redo.empty() ? "Redo" : ("Redo: " + redo).c_str(), "Ctrl+Y", false,
-                            !redo.empty() && !state.job.running))
-            frame.actions.push(Redo{});
-        ImGui::Separator();
-        const bool some = !state.document.selected.empty();
-        if (ImGui::MenuItem("Grow selection", in_view("+"), false, some))
-            frame.actions.push(GrowSelection{});
-        if (ImGui::MenuItem("Shrink selection", in_view("-"), false, some))
-            frame.actions.push(ShrinkSelection{});
-        if (ImGui::MenuItem("Invert selection", in_view("I"), false, state.document.session.part != nullptr))
-            frame.actions.push(InvertSelection{});
-        if (ImGui::MenuItem("Clear selection", "Esc", false, some || !state.document.vertices.empty()))
-            frame.actions.push(ClearSelection{});
-        region_menu(frame);
-        ImGui::Separator();
-        if (ImGui::MenuItem("Materials..."))
-            open_material_editor(frame);
-        if (ImGui::MenuItem("Keep result as reference", nullptr, false, state.document.session.blank != nullptr))
-            frame.actions.push(KeepReference{});
-        if (ImGui::MenuItem("Remove reference", nullptr, false, state.reference != nullptr))
-            frame.actions.push(DropReference{});
-        ImGui::Separator();
-        if (ImGui::MenuItem("Preferences...", "Ctrl+,"))
-            frame.ui.show_preferences = true;
-        ImGui::EndMenu();
-    }
+    file_menu(frame);
+    edit_menu(frame);
     run_menu(frame);
-    if (ImGui::BeginMenu("View")) {
-        ViewSettings view = state.view;
-        bool changed = false;
-        if (ImGui::MenuItem("Fit all", in_view("F")))
-            frame.actions.push(FitView{});
-        if (ImGui::MenuItem("Perspective", in_view("5"), view.camera[0].perspective)) {
-            const bool perspective = !view.camera[0].perspective;
-            for (const View v : all_views)
-                if (v != View::blank)
-                    view.camera[size_t(v)].perspective = perspective;
-            changed = true;
-        }
-        if (ImGui::BeginMenu("Look from")) {
-            constexpr std::tuple<const char*, const char*, StandardView> looks[] = {
-                {"Top", in_view("1"), StandardView::top},
-                {"Front", in_view("2"), StandardView::front},
-                {"Right", in_view("3"), StandardView::right},
-                {"Isometric", in_view("4"), StandardView::isometric},
-                {"Bottom", "", StandardView::bottom},
-                {"Back", "", StandardView::back},
-                {"Left", "", StandardView::left}};
-            for (const auto& [label, key, from] : looks)
-                if (ImGui::MenuItem(label, key))
-                    frame.actions.push(LookFrom{View::part, from});
-            ImGui::EndMenu();
-        }
-        ImGui::Separator();
-        constexpr std::pair<const char*, std::optional<View>> shown[] = {{"Four views", std::nullopt},
-                                                                         {"Part alone", View::part},
-                                                                         {"Blank alone", View::blank},
-                                                                         {"Quad mesh alone", View::quads},
-                                                                         {"NURBS surface alone", View::surface}};
-        for (const auto& [label, which] : shown)
-            if (ImGui::MenuItem(label, nullptr, view.maximised == which)) {
-                view.maximised = which;
-                changed = true;
-            }
-        ImGui::Separator();
-        mouse_menu(frame);
-        if (ImGui::MenuItem("Clip", in_view("H"), view.clip.on, state.document.session.part != nullptr))
-            toggle_clip(frame);
-        changed |= ImGui::MenuItem("Dark theme", in_view("T"), &view.dark);
-        changed |= ImGui::MenuItem("Rotate 3D views together", nullptr, &view.linked);
-        changed |= ImGui::MenuItem("Triangle edges", in_view("E"), &view.edges);
-        changed |= ImGui::MenuItem("Feature lines", nullptr, &view.features);
-        ImGui::Separator();
-        const bool narrow = is_narrow(ImGui::GetIO().DisplaySize.x, frame.ui.scale);
-        SidePanels& panels = frame.ui.panels;
-        for (const auto& [label, key, which] :
-             {std::tuple{"Steps panel", "F2", SidePanels::steps}, {"Inspect panel", "F3", SidePanels::inspect}})
-            if (ImGui::MenuItem(label, key, panels.shown(which, narrow)))
-                panels.toggle(which, narrow);
-        if (changed)
-            frame.actions.push(SetViewSettings{view});
-        ImGui::EndMenu();
-    }
-    if (ImGui::BeginMenu("Help")) {
-        if (ImGui::MenuItem("Manual"))
-            open_manual(frame.ui.manual);
-        ImGui::MenuItem("Keyboard and mouse", "F1", &frame.ui.show_shortcuts);
-        ImGui::MenuItem("Messages", nullptr, &frame.ui.show_messages);
-        ImGui::Separator();
-        if (ImGui::MenuItem("About..."))
-            frame.ui.show_about = true;
-        ImGui::EndMenu();
-    }
+    view_menu(frame);
+    help_menu(frame);
     const std::string title =
         state.project.empty() ? state.document.session.file.filename().string() : state.project.filename().string();
     if (!title.empty()) {

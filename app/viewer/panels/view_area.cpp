@@ -131,6 +131,90 @@ void mark_keyed_corner(const Frame& frame, glm::dvec2 size, ImVec2 from, ImDrawL
                     ink(palette_of(frame.state.view.dark).accent), 32, 3 * frame.ui.scale);
 }
 
+bool is_refused(const Frame& frame, View view) { return view == View::part && shows_refused(frame.state); }
+
+/// Whether what a view shows was made of other options; the quads follow a corner that is dragged.
+bool shows_old(const Frame& frame, View view)
+{
+    return is_old(frame.state, view) && !frame.ui.dragged_corner && !is_refused(frame, view);
+}
+
+/// The line above a view. Two clicks on it make the view large, or small again.
+void view_title(Frame& frame, View view, ImVec2 at, ImVec2 size)
+{
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted(is_refused(frame, view)
+                               ? ("Refused: " + frame.state.refused_file->file.filename().string()).c_str()
+                               : title(view));
+    ImGui::PopFont();
+    ImGui::PushFont(frame.ui.fonts.small);
+    if (shows_old(frame, view)) {
+        ImGui::SameLine();
+        ImGui::TextColored(palette_of(frame.state.view.dark).warning, "old");
+        tooltip(frame.state.job.running ? "A new result is being computed"
+                                        : "Options have changed since this was computed: Update all  (F5)");
+    }
+    view_buttons(frame, view);
+    ImGui::PopFont();
+    const bool in_title = ImGui::IsMouseHoveringRect(at, {at.x + size.x, at.y + size.y}) && ImGui::IsWindowHovered() &&
+                          !ImGui::IsAnyItemHovered();
+    if (in_title && ImGui::IsMouseDoubleClicked(0)) {
+        ViewSettings settings = frame.state.view;
+        settings.maximised = settings.maximised == view ? std::nullopt : std::optional(view);
+        frame.actions.push(SetViewSettings{settings});
+    }
+}
+
+/// Around places of the scene.
+void draw_rings(const Frame& frame, View view, const Scene& shown, const glm::dvec2& size, ImVec2 from,
+                ImDrawList* draw)
+{
+    const float scale = frame.ui.scale;
+    const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
+    for (const SceneRing& ring : shown.rings) {
+        if (cut_away(shown, ring.place))
+            continue;
+        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], ring.place, size);
+        const ImVec2 middle{from.x + float(pixel.x), from.y + float(pixel.y)};
+        draw->AddCircle(middle, 8 * scale, halo, 24, 5 * scale);
+        draw->AddCircle(middle, 8 * scale, ink(palette_of(frame.state.view.dark).accent), 24, 2.5f * scale);
+    }
+}
+
+/// What to do, in the middle of a view that has nothing to show.
+void draw_empty(const Frame& frame, const std::string& words, ImVec2 from, ImVec2 size, ImDrawList* draw)
+{
+    if (words.empty())
+        return;
+    const float wrap = std::min(size.x - 40, 320 * frame.ui.scale);
+    const ImVec2 text = ImGui::CalcTextSize(words.c_str(), nullptr, false, wrap);
+    draw->AddText(nullptr, 0, {from.x + (size.x - text.x) / 2, from.y + (size.y - text.y) / 2},
+                  ink(palette_of(frame.state.view.dark).muted), words.c_str(), nullptr, wrap);
+}
+
+/// Legend, axes and labels, none over another. @returns the place of the cube
+std::optional<PixelBox> draw_overlays(Frame& frame, View view, const Scene& shown, ImVec2 from, ImVec2 size,
+                                      ImDrawList* draw)
+{
+    const glm::dvec2 pixels = dvec(size);
+    if (shown.hovered)
+        mark_hovered(frame, view, *shown.hovered, pixels, from, draw);
+    std::vector<PixelBox> taken;
+    const auto legend = draw_legend(frame, shown, from, size, draw);
+    const auto triad = axis_triad(frame, view, legend, pixels, from, draw);
+    const auto cube = cube_place(frame, view, pixels);
+    for (const auto& box : {legend, triad, cube})
+        if (box)
+            taken.push_back(*box);
+    if (!frame.ui.aside)
+        frame.ui.covered[size_t(view)] = {legend ? legend->greatest.x : 0,
+                                          cube ? std::max(pixels.x - cube->least.x, cube->greatest.y) : 0};
+    for (const PixelBox& dot : measuring_dots(frame, view, pixels))
+        taken.push_back(dot);
+    draw_labels(frame, view, shown, from, size, taken, draw);
+    return cube;
+}
+
 /// @returns whether the mouse points into it and drags nothing
 bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
 {
@@ -143,29 +227,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
                           ImGuiWindowFlags_AlwaysUseWindowPadding);
     ImGui::PopStyleVar();
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    ImGui::PushFont(frame.ui.fonts.bold);
-    const bool of_refused = view == View::part && shows_refused(frame.state);
-    ImGui::TextUnformatted(of_refused ? ("Refused: " + frame.state.refused_file->file.filename().string()).c_str()
-                                      : title(view));
-    ImGui::PopFont();
-    ImGui::PushFont(frame.ui.fonts.small);
-    // the quads follow it
-    const bool old = is_old(frame.state, view) && !frame.ui.dragged_corner && !of_refused;
-    if (old) {
-        ImGui::SameLine();
-        ImGui::TextColored(p.warning, "old");
-        tooltip(frame.state.job.running ? "A new result is being computed"
-                                        : "Options have changed since this was computed: Update all  (F5)");
-    }
-    view_buttons(frame, view);
-    ImGui::PopFont();
-    const bool in_title = ImGui::IsMouseHoveringRect(at, {at.x + whole.x, at.y + bar}) && ImGui::IsWindowHovered() &&
-                          !ImGui::IsAnyItemHovered();
-    if (in_title && ImGui::IsMouseDoubleClicked(0)) {
-        ViewSettings settings = frame.state.view;
-        settings.maximised = settings.maximised == view ? std::nullopt : std::optional(view);
-        frame.actions.push(SetViewSettings{settings});
-    }
+    view_title(frame, view, at, {whole.x, bar});
 
     const ImVec2 from{at.x, at.y + bar}, size{whole.x, std::max(1.f, whole.y - bar)};
     frame.ui.view_from[size_t(view)] = from;
@@ -179,7 +241,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::Image(drawn.texture, size, {0, 1}, {1, 0});
     const bool coloured_by_result = view != View::part || frame.state.document.display.field != Field::none;
     const bool live = view == View::blank && frame.state.job.running;
-    if (old && coloured_by_result && !live) // dimmed, until newer ones stand
+    if (shows_old(frame, view) && coloured_by_result && !live) // dimmed, until newer ones stand
         draw->AddRectFilled(from, {from.x + size.x, from.y + size.y},
                             ink(ImVec4(p.panel.x, p.panel.y, p.panel.z, 0.5f)));
     ImGui::SetCursorScreenPos(from);
@@ -189,43 +251,15 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     Mouse mouse{dvec(ImGui::GetMousePos()) - dvec(from), dvec(size), ImGui::IsItemHovered()};
 
     draw->PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
-    const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
-    for (const SceneRing& ring : shown.rings) {
-        if (cut_away(shown, ring.place))
-            continue;
-        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], ring.place, mouse.size);
-        const ImVec2 middle{from.x + float(pixel.x), from.y + float(pixel.y)};
-        draw->AddCircle(middle, 8 * frame.ui.scale, halo, 24, 5 * frame.ui.scale);
-        draw->AddCircle(middle, 8 * frame.ui.scale, ink(p.accent), 24, 2.5f * frame.ui.scale);
-    }
-    if (!shown.empty.empty()) {
-        const float wrap = std::min(size.x - 40, 320 * frame.ui.scale);
-        const ImVec2 text = ImGui::CalcTextSize(shown.empty.c_str(), nullptr, false, wrap);
-        draw->AddText(nullptr, 0, {from.x + (size.x - text.x) / 2, from.y + (size.y - text.y) / 2}, ink(p.muted),
-                      shown.empty.c_str(), nullptr, wrap);
-    }
-    if (frame.state.document.section && !of_refused)
+    draw_rings(frame, view, shown, mouse.size, from, draw);
+    draw_empty(frame, shown.empty, from, size, draw);
+    if (frame.state.document.section && !is_refused(frame, view))
         draw_section(frame, view, mouse.size, from, draw);
     std::optional<PixelBox> cube;
-    if (drawn.old && !live) { // no legend, no label over another picture
+    if (drawn.old && !live) // no legend, no label over another picture
         veil(frame, from, size, draw);
-    } else {
-        if (shown.hovered)
-            mark_hovered(frame, view, *shown.hovered, mouse.size, from, draw);
-        std::vector<PixelBox> taken;
-        const auto legend = draw_legend(frame, shown, from, size, draw);
-        const auto triad = axis_triad(frame, view, legend, mouse.size, from, draw);
-        cube = cube_place(frame, view, mouse.size);
-        for (const auto& box : {legend, triad, cube})
-            if (box)
-                taken.push_back(*box);
-        if (!frame.ui.aside)
-            frame.ui.covered[size_t(view)] = {legend ? legend->greatest.x : 0,
-                                              cube ? std::max(mouse.size.x - cube->least.x, cube->greatest.y) : 0};
-        for (const PixelBox& dot : measuring_dots(frame, view, mouse.size))
-            taken.push_back(dot);
-        draw_labels(frame, view, shown, from, size, taken, draw);
-    }
+    else
+        cube = draw_overlays(frame, view, shown, from, size, draw);
     if (cube && view_cube(frame, view, *cube, mouse, from, draw))
         mouse.inside = false;
     use_tool(frame, view, mouse, from, draw);
