@@ -302,12 +302,12 @@ void one_round(Work& work, double most_edges, const Progress& progress)
     smooth(work, progress.part(0.8, 1));
 }
 
-void mend(Work& work, const Progress& progress)
+void improve_shapes(Work& work, const Progress& progress)
 {
-    constexpr int most_mends = 10;
+    constexpr int most_rounds = 10;
     static const double thin = EvolvingMesh::thinness(30 * degrees);
-    for (int round = 0; round < most_mends; ++round) {
-        const Progress here = progress.part(double(round) / most_mends, double(round + 1) / most_mends);
+    for (int round = 0; round < most_rounds; ++round) {
+        const Progress here = progress.part(double(round) / most_rounds, double(round + 1) / most_rounds);
         flip_for_angle(work, here.part(0, 0.2));
         smooth(work, here.part(0.2, 0.6));
         if (mend_thin(work, thin, here.part(0.6, 1)) == 0)
@@ -346,7 +346,7 @@ void IncrementalRemesh::run(const Progress& progress)
     for (int round = 0; round < rounds; ++round)
         one_round(work, state_->options.most_edges,
                   progress.part(0.02 + 0.78 * round / rounds, 0.02 + 0.78 * (round + 1) / rounds));
-    mend(work, progress.part(0.8, 1));
+    improve_shapes(work, progress.part(0.8, 1));
 }
 
 void IncrementalRemesh::refine(const Eigen::VectorXd& share, double least, double growth, const Progress& progress)
@@ -359,7 +359,7 @@ void IncrementalRemesh::refine(const Eigen::VectorXd& share, double least, doubl
         split_long_lines(work);
         one_round(work, state_->options.most_edges, progress.part(0.8 * round / rounds, 0.8 * (round + 1) / rounds));
     }
-    mend(work, progress.part(0.8, 1));
+    improve_shapes(work, progress.part(0.8, 1));
 }
 
 IncrementalRemesh::Snapshot IncrementalRemesh::snapshot()
