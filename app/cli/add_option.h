@@ -27,7 +27,7 @@ template <class Number> CLI::Validator range_of(const Option& option)
     const auto check = [range](std::string& word) {
         double number = 0;
         const bool nan = CLI::detail::lexical_cast(word, number) && std::isnan(number);
-        return nan ? fmt::format("{} is no number in the range {}", word, range.get_description()) : range(word);
+        return nan ? fmt::format("{} is not a number", word) : range(word);
     };
     return {check, range.get_description()};
 }

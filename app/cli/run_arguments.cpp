@@ -6,20 +6,22 @@
 namespace spia::cli {
 namespace {
 
-/// Of sheet and surface.
+/// Of sheet and surface; the help lists them in the order in which they are described.
 void add_described(CLI::App& command, RunArguments& run)
 {
-    for_each_described(run, [&](const Option& option, auto& value) { add(command, option, value); });
-    for_each_described(run.grid, [&](const Option& option, auto& value) {
+    const auto add_of_grid = [&command](const Option& option, auto& value) {
         if (!option.name.empty())
             add(command, option, value);
+    };
+    for_each_described(run, [&](const Option& option, auto& value) {
+        CLI::Option* added = add(command, option, value);
+        if (&option == &option::corners)
+            added->delimiter(',')->expected(4);
+        else if (&option == &option::degree)
+            added->delimiter(',')->expected(1, 2);
+        else if (&option == &option::grid)
+            for_each_described(run.grid, add_of_grid);
     });
-    for (const Option* list : {&option::corners, &option::degree})
-        command.get_option("--" + std::string(list->name))->delimiter(',');
-    command.get_option("--" + std::string(option::corners.name))->expected(4);
-    command.get_option("--" + std::string(option::degree.name))->expected(1, 2);
-    add_direction(command, run.direction);
-    add_rolling(command, run.rolling);
 }
 
 void add_files(CLI::App& command, RunArguments& run)
@@ -56,6 +58,8 @@ void add_arguments(CLI::App& command, RunArguments& run)
     command.add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
     add_reading(command, run.read);
     add_remesh(command, run.read.remesh);
+    add_direction(command, run.direction);
+    add_rolling(command, run.rolling);
     add_described(command, run);
     add_files(command, run);
 }

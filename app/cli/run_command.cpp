@@ -46,34 +46,39 @@ LimitsOptions limits_options(const RunArguments& arguments)
     return result;
 }
 
-/// Those that are not as by default, of the sheet and of the surface.
-std::vector<const Option*> given_options(const RunArguments& arguments)
+/// Options of the sheet and of the surface that are not as by default.
+std::vector<const Option*> changed_options(const RunArguments& arguments)
 {
-    std::vector<const Option*> given;
-    const auto add = [&given](const Option& option) { given.push_back(&option); };
+    std::vector<const Option*> changed;
+    const auto add = [&changed](const Option& option) { changed.push_back(&option); };
     for_each_changed(arguments, add);
     for_each_changed(arguments.grid, add);
-    return given;
+    return changed;
 }
 
 /// Whether what was given is for one patch, the plain surface over the whole blank.
 bool asks_for_one_patch(const RunArguments& arguments)
 {
     const auto for_one = [](const Option* option) { return option->patches == Patches::one; };
-    return std::ranges::any_of(given_options(arguments), for_one) || !arguments.deform.empty() ||
+    return std::ranges::any_of(changed_options(arguments), for_one) || !arguments.deform.empty() ||
            arguments.degree.front() != arguments.degree.back();
 }
 
-/// @throws InputError  if something was given that the surface, of one patch or several, has no use
-///                     for
-void require_use(const RunArguments& arguments, bool several)
+/// @param wanted  what comes of the arguments
+/// @throws InputError  if something was given that the surface has no use for
+void require_use(const RunArguments& arguments, const SessionOptions& wanted)
 {
-    for (const Option* option : given_options(arguments)) {
+    const bool several = wanted.patches.has_value();
+    for (const Option* option : changed_options(arguments)) {
         if (several && option->patches == Patches::one)
-            throw InputError(fmt::format("--{} is for one patch; take --patches one, or leave it out", option->name));
+            throw InputError(fmt::format("--{} is for one patch; take --patches one{}, or leave it out", option->name,
+                                         option == &option::corners ? ", give corners in the file of --patches" : ""));
         if (!several && option->patches == Patches::several)
             throw InputError(fmt::format(
                 "--{} is for several patches; ask for them with --patches auto, or leave it out", option->name));
+        if (option->within_tolerance && !several && !wanted.best_surface && !wanted.tolerance)
+            throw InputError(fmt::format("--{} is for a surface within a tolerance; give --tolerance, or leave it out",
+                                         option->name));
     }
     if (several && arguments.degree.front() != arguments.degree.back())
         throw InputError("several patches have one degree along u and v; give --degree one number");
@@ -113,7 +118,7 @@ SessionOptions options(const RunArguments& arguments)
     result.tolerance = arguments.tolerance;
     result.patches = patch_layout(arguments.patches);
     result.best_surface = arguments.patches == "best" && !asks_for_one_patch(arguments);
-    require_use(arguments, result.patches.has_value());
+    require_use(arguments, result);
     if (arguments.smooth_joins)
         result.patches->smooth_joins = true;
     if (arguments.patch_edges && (!result.patches->cuts.empty() || !result.patches->corners.empty()))
@@ -180,7 +185,7 @@ Stage last_stage(const RunArguments& arguments)
 {
     const bool files =
         std::ranges::any_of(arguments.formats, shows_surface) || !arguments.json.empty() || !arguments.report.empty();
-    const bool asked = std::ranges::any_of(given_options(arguments), [](const Option* option) {
+    const bool asked = std::ranges::any_of(changed_options(arguments), [](const Option* option) {
         return std::ranges::find(option::of_surfaces, option) != std::end(option::of_surfaces);
     });
     return files || asked ? Stage::fit : Stage::solve;

@@ -366,8 +366,8 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
     }
 }
 
-/// Refuses what cannot be done before the work begins.
-void require_possible(const UnfoldArguments& arguments)
+/// Before the work begins: refuses what cannot be done, and makes the folder of the files.
+void prepare(const UnfoldArguments& arguments)
 {
     if (arguments.automatic == !arguments.script.empty())
         throw InputError("give either --script FILE or --auto");
@@ -411,7 +411,7 @@ void print_states_and_bends(const UnfoldArguments& arguments, const PartFile& pa
         say("bends     only the blank is laid so: the states of the steps keep the lengths of the part's mesh\n");
 }
 
-/// Of part, steps and surface, each once.
+/// Of part, steps and surface; what the surface says again is left out.
 std::vector<std::string> all_shortcomings(const PartFile& part, const UnfoldRun& run,
                                           const std::vector<std::string>& findings,
                                           const std::optional<ChainRun>& surface)
@@ -431,7 +431,7 @@ std::vector<std::string> all_shortcomings(const PartFile& part, const UnfoldRun&
 
 int unfold(const UnfoldArguments& arguments)
 {
-    require_possible(arguments);
+    prepare(arguments);
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
     require_deck_ids(arguments.formats, part);

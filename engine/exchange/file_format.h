@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cassert>
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,9 @@ template <class Read> std::vector<FileFormat> formats_of(const std::vector<Forma
 /// What reads the file, whose ending has to be that of one of the formats.
 template <class Read> Read reader_of(const std::vector<FormatReader<Read>>& readers, const std::filesystem::path& path)
 {
-    return std::ranges::find_if(readers, [&](const auto& each) { return has_ending(each.format, path); })->read;
+    const auto found = std::ranges::find_if(readers, [&](const auto& each) { return has_ending(each.format, path); });
+    assert(found != readers.end());
+    return found->read;
 }
 
 } // namespace spia

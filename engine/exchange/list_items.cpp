@@ -1,6 +1,7 @@
 #include "engine/exchange/list_items.h"
 
 #include <Eigen/Geometry>
+#include <cstdlib>
 #include <fmt/core.h>
 #include <set>
 #include <utility>
@@ -45,6 +46,7 @@ FileItems items_of_cad(const std::filesystem::path& path, const Progress& progre
 {
     CadContent cad = preview_cad(path, progress);
     FileItems items;
+    items.kind = FileKind::cad;
     items.format = cad.format;
     items.unit = cad.unit;
     for (const CadItem& each : cad.tree.item) {
@@ -78,6 +80,7 @@ FileItems items_of_deck(const std::filesystem::path& path, const Progress& progr
 {
     Deck deck = read_deck(path, file_content(path), progress);
     FileItems items;
+    items.kind = FileKind::deck;
     items.format = deck.format;
     items.unit = deck.unit ? name(*deck.unit) : "";
     items.notes = std::move(deck.notes);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/part_formats.h"
 #include "engine/mesh/soup.h"
 
 namespace spia {
@@ -29,6 +30,7 @@ struct FileItem {
 
 /// What a file holds, at a glance.
 struct FileItems {
+    FileKind kind = FileKind::mesh;
     std::string format;         ///< e.g. "STEP"
     std::string unit;           ///< of length that the file names, as it writes it; empty: none
     std::vector<FileItem> item; ///< holders before what they hold; sets, which may overlap, last

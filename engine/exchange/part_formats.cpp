@@ -19,11 +19,12 @@ struct Group {
     std::vector<FileFormat> formats;
 };
 
-std::array<Group, 3> groups()
+const std::array<Group, 3>& groups()
 {
-    return {{{FileKind::cad, "CAD files", cad_formats()},
-             {FileKind::deck, "solver decks", deck_formats()},
-             {FileKind::mesh, "meshes", mesh_formats()}}};
+    static const std::array<Group, 3> all = {{{FileKind::cad, "CAD files", cad_formats()},
+                                              {FileKind::deck, "solver decks", deck_formats()},
+                                              {FileKind::mesh, "meshes", mesh_formats()}}};
+    return all;
 }
 
 /// @param text  of one format

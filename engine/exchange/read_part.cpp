@@ -109,10 +109,10 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     part.notes = std::move(file.notes);
     if (file.unit && !options.unit)
         part.notes.push_back(
-            fmt::format("lengths were read in {}, as the specification of {} says", name(*file.unit), part.format));
+            fmt::format("lengths were read in {}, as the specification of the format says", name(*file.unit)));
     for (Eigen::Vector3d& p : file.soup.position)
         p *= millimetres(part.unit);
-    return prepare_part(std::move(part), file.soup, options, file.apart, false, nullptr, progress.part(0.5, 1));
+    return prepare_part(std::move(part), file.soup, options, file.own_corners, false, nullptr, progress.part(0.5, 1));
 }
 
 /// Healthy parts alone can be remeshed.

@@ -209,7 +209,7 @@ public:
     {
         int tried = 0, taken = 0;
         while (const std::optional<SpanBorders> fewer = proposals.next(best_->surface, progress_.part(0.9, 0.9))) {
-            progress_.checkpoint(0.9, fmt::format("{} {} x {}", what, fewer->u.size() - 1, fewer->v.size() - 1));
+            progress_.checkpoint(0.9, fmt::format("{} {} x {} spans", what, fewer->u.size() - 1, fewer->v.size() - 1));
             Attempt now = fitted(*fewer, progress_.part(0.9, 0.9));
             Judgement judgement = judge_.judge(now.surface, false, progress_.part(0.9, 0.95));
             const bool good =
@@ -351,13 +351,13 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     // joined again. Spans of even change can be fewer than halved ones.
     const auto halve = [&](AttemptReport& own) { return search.halve_spans(own); };
     const auto merge = [&](AttemptReport& own) {
-        return search.take_fewer(SpanMerging(mesh, options), "merging spans to", own);
+        return search.take_fewer(SpanMerging(mesh, options), "merging to", own);
     };
     const auto equidistribute = [&](AttemptReport& own) {
-        return search.take_fewer(KnotEquidistribution(source, options), "distributing knots over", own);
+        return search.take_fewer(KnotEquidistribution(source, options), "distributing the knots of", own);
     };
     const auto remove = [&](AttemptReport& own) {
-        return search.take_fewer(KnotRemoval(options), "removing knots to", own);
+        return search.take_fewer(KnotRemoval(options), "removing knots down to", own);
     };
     const auto interpolate = [&](AttemptReport& own) { return search.take_interpolation(own); };
     return search.result(try_in_order({{"spans halved", {}, halve, go_on},

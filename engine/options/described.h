@@ -28,9 +28,11 @@ template <class S, class Use> void for_each_described(S& options, const Use& use
 template <class S, class Use> void for_each_changed(const S& options, const Use& use)
 {
     const S plain;
-    std::apply(
-        [&](const auto&... each) { ((options.*each.member == plain.*each.member ? void() : use(*each.option)), ...); },
-        described<S>);
+    const auto compare = [&](const auto& one) {
+        if (!(options.*one.member == plain.*one.member))
+            use(*one.option);
+    };
+    std::apply([&](const auto&... each) { (compare(each), ...); }, described<S>);
 }
 
 } // namespace spia

@@ -97,8 +97,8 @@ std::string_view applicability(const Option& option)
 {
     switch (option.patches) {
     case Patches::any: return "";
-    case Patches::one: return " (of one patch only)";
-    case Patches::several: return " (of several patches only)";
+    case Patches::one: return "; of one patch only";
+    case Patches::several: return "; of several patches only";
     }
     std::abort();
 }

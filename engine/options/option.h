@@ -40,7 +40,8 @@ struct Option {
     std::string_view help;                ///< what it does; no capital and no full stop
     std::string_view label = {};          ///< of its field in the window; empty: it has none
     std::string_view place = {};          ///< of the window, in which that field is
-    Patches patches = Patches::any;       ///< where it applies; elsewhere it has no effect
+    Patches patches = Patches::any;       ///< for which surfaces; with others it is refused
+    bool within_tolerance = false;        ///< it is for surfaces within a tolerance
 };
 
 /// What to do next, where that is another thing in files and on the command line than in the
@@ -61,7 +62,7 @@ std::string command_line_text(std::string_view text);
 /// As in: close the crack ("Close the crack" in the step Part).
 std::string window_text(std::string_view text);
 
-/// What the option is for, to be put behind its help: " (of one patch only)"; empty: any surface.
+/// Which surfaces the option is for, to be put behind its help: "; of one patch only". Empty: any.
 std::string_view applicability(const Option& option);
 
 /// Of a choice in the list of the window.

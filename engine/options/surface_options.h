@@ -103,14 +103,16 @@ inline constexpr Option fit_parameters{
     .help = "within a tolerance: those of the blank, or corrected: points slide along the surface while it is fitted, "
             "which then needs fewer control points but gives up the places in the blank",
     .label = "Fewer control points",
-    .patches = Patches::one};
+    .patches = Patches::one,
+    .within_tolerance = true};
 inline constexpr Option max_control_points{
     .name = "max-control-points",
     .key = "max_control_points",
     .range = Range{16, 4'000'000},
     .help = "of the surface within a tolerance: the fit stops there even if the tolerance is not reached",
     .label = "Max control points",
-    .place = "the step NURBS surface"};
+    .place = "the step NURBS surface",
+    .within_tolerance = true};
 inline constexpr Option fill_holes{
     .name = "fill-holes",
     .help = "the surface covers the holes of the part; else IGES and STEP have it trimmed by them (files for "

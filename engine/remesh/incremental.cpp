@@ -28,7 +28,7 @@ constexpr double degrees = std::numbers::pi / 180;
 /// Calls each(i) for 0 <= i < count; large meshes take seconds.
 template <class Each> void for_all(int count, const Progress& progress, const char* what, const Each& each)
 {
-    constexpr int at_a_time = 256; // mending takes milliseconds each
+    constexpr int at_a_time = 256; // improving takes milliseconds each
     for (int i = 0; i < count; ++i) {
         if (i % at_a_time == 0)
             progress.checkpoint(double(i) / count, what);
@@ -67,7 +67,7 @@ struct Work {
     explicit Work(EvolvingMesh evolving) : mesh(std::move(evolving)) {}
 
     EvolvingMesh mesh;
-    LastTried to_split, to_collapse, to_flip_for_valence, to_flip_for_angle, to_smooth, to_mend;
+    LastTried to_split, to_collapse, to_flip_for_valence, to_flip_for_angle, to_smooth, to_improve;
     Tick since = -1; ///< only what has changed after this is looked at
 };
 
@@ -265,13 +265,13 @@ void climb(EvolvingMesh& mesh, Face f)
 /// Flips, collapses and moves what is left of thin triangles.
 /// @param thin  which they are, as EvolvingMesh::thinness()
 /// @returns how many there are that something may be done about
-int mend_thin(Work& work, double thin, const Progress& progress)
+int improve_thin(Work& work, double thin, const Progress& progress)
 {
     EvolvingMesh& mesh = work.mesh;
     int left = 0;
-    for_all(int(mesh.mesh().n_faces()), progress, "mending thin triangles", [&](int i) {
+    for_all(int(mesh.mesh().n_faces()), progress, "improving thin triangles", [&](int i) {
         const Face f(i);
-        if (mesh.mesh().status(f).deleted() || !work.to_mend.due(mesh, f, work.since) ||
+        if (mesh.mesh().status(f).deleted() || !work.to_improve.due(mesh, f, work.since) ||
             EvolvingMesh::thinness(mesh.triangle(f)) <= thin)
             return;
         ++left;
@@ -310,7 +310,7 @@ void improve_shapes(Work& work, const Progress& progress)
         const Progress here = progress.part(double(round) / most_rounds, double(round + 1) / most_rounds);
         flip_for_angle(work, here.part(0, 0.2));
         smooth(work, here.part(0.2, 0.6));
-        if (mend_thin(work, thin, here.part(0.6, 1)) == 0)
+        if (improve_thin(work, thin, here.part(0.6, 1)) == 0)
             break;
     }
     work.mesh.drop_line_vertices();

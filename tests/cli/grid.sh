@@ -19,11 +19,16 @@ run 0 "^          one patch over the whole blank" "$parts/fender.obj" --json "$o
 run 0 "least scaled Jacobian" "$parts/dome.obj" --grid 20x20 --json "$out/a.json"
 grep -q "\"choice\"" "$out/a.json" && fail "the grid was asked for"
 grep -q '"to_bends": 0.0' "$out/a.json" || fail "lines went to bends unasked"
-run 2 "--to-bends: nan is no number in the range" "$channel" --to-bends nan
+run 2 "--to-bends: nan is not a number" "$channel" --to-bends nan
 # Nothing that was asked for is passed over where the surface has no use for it.
-for asked in "--grid 20x20" "--corners 0,1,2,3" "--grid-method harmonic" "--to-bends 0.5" "--even-cells" "--ends natural" \
+for asked in "--grid 20x20" "--grid-method harmonic" "--to-bends 0.5" "--even-cells" "--ends natural" \
              "--fit-parameters corrected" "--fill-holes"; do
     run 2 "^spia: ${asked%% *} is for one patch; take --patches one, or leave it out" "$channel" --patches auto $asked
+done
+run 2 "^spia: --corners is for one patch; take --patches one, give corners in the file of --patches, or leave it out" \
+    "$channel" --patches auto --corners 0,1,2,3
+for asked in "--fit-parameters corrected" "--max-control-points 100"; do
+    run 2 "^spia: ${asked%% *} is for a surface within a tolerance; give --tolerance, or leave it out" "$channel" --patches one $asked
 done
 for asked in "--smooth-joins" "--patch-edges 60"; do
     run 2 "^spia: ${asked%% *} is for several patches; ask for them with --patches auto, or leave it out" "$channel" $asked
@@ -46,7 +51,7 @@ grep -q '"edges": 0' "$out/a.json" || fail "the report tells an edge on which no
 echo '{"edge_deg": 91}' > "$out/edges.json"
 run 0 "1 patch with" "$out/fold.obj" --patches "$out/edges.json"
 run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches "$out/edges.json" --patch-edges 60
-run 2 "nan is no number in the range" "$out/fold.obj" --patches auto --patch-edges nan
+run 2 "nan is not a number" "$out/fold.obj" --patches auto --patch-edges nan
 echo '{"edge_deg": 0}' > "$out/edges.json"
 run 2 "edge_deg.* must be an angle in degrees, from 1 to 180" "$out/fold.obj" --patches "$out/edges.json"
 echo '{"edge_deg": 45}' > "$out/edges.json"

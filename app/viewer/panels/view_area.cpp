@@ -192,7 +192,8 @@ void draw_empty(const Frame& frame, const std::string& words, ImVec2 from, ImVec
                   ink(palette_of(frame.state.view.dark).muted), words.c_str(), nullptr, wrap);
 }
 
-/// Legend, axes and labels, none over another. @returns the place of the cube
+/// The face under the mouse, legend, axes and labels, none over another; notes what they cover.
+/// @returns where there is room for the cube
 std::optional<PixelBox> draw_overlays(Frame& frame, View view, const Scene& shown, ImVec2 from, ImVec2 size,
                                       ImDrawList* draw)
 {

@@ -18,7 +18,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file_content.h"
-#include "engine/core/text.h"
 #include "engine/exchange/cad/brep_check.h"
 #include "engine/exchange/cad/cad_damage.h"
 #include "engine/exchange/cad/cad_names.h"
@@ -147,19 +146,19 @@ CadNames read_iges(const std::filesystem::path& path, CadShape& result, const Pr
     return names;
 }
 
-using Read = CadNames (*)(const std::filesystem::path& path, CadShape& result, const Progress& progress);
+using ReadShape = CadNames (*)(const std::filesystem::path& path, CadShape& result, const Progress& progress);
 
-const std::vector<FormatReader<Read>>& readers()
+const std::vector<FormatReader<ReadShape>>& shape_readers()
 {
-    static const std::vector<FormatReader<Read>> all = {{{"STEP", {".step", ".stp"}}, read_step},
-                                                        {{"IGES", {".iges", ".igs"}}, read_iges},
-                                                        {{"BREP", {".brep"}}, read_brep}};
+    static const std::vector<FormatReader<ReadShape>> all = {{{"STEP", {".step", ".stp"}}, read_step},
+                                                             {{"IGES", {".iges", ".igs"}}, read_iges},
+                                                             {{"BREP", {".brep"}}, read_brep}};
     return all;
 }
 
 } // namespace
 
-std::vector<FileFormat> cad_shape_formats() { return formats_of(readers()); }
+std::vector<FileFormat> cad_shape_formats() { return formats_of(shape_readers()); }
 
 CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progress)
 {
@@ -167,7 +166,7 @@ CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progr
     CadShape result;
     CadNames names;
     try {
-        names = reader_of(readers(), path)(path, result, progress);
+        names = reader_of(shape_readers(), path)(path, result, progress);
     } catch (const std::length_error& error) { // OpenCASCADE makes lists as long as a damaged file
                                                // says
         refuse(fmt::format("OpenCASCADE gives up on it (\"{}\")", error.what()));

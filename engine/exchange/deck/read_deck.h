@@ -10,8 +10,8 @@
 
 namespace spia {
 
-/// Those that read_deck() reads: LS-DYNA keyword, Nastran bulk data, Abaqus and CalculiX, Gmsh 2 and
-/// 4 (text), Radioss starter.
+/// Those that read_deck() reads: LS-DYNA keyword, Nastran bulk data, Abaqus and CalculiX, Gmsh,
+/// Radioss starter.
 std::vector<FileFormat> deck_formats();
 
 /// Reads nodes, shells, parts, thicknesses and material names of a deck and of the files that it

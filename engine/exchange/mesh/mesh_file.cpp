@@ -9,8 +9,8 @@
 namespace spia {
 namespace {
 
-/// @param progress  once the content is there
-using Read = MeshFile (*)(const std::filesystem::path& path, const std::string& content, const Progress& progress);
+/// @param content  of the file
+using ReadMesh = MeshFile (*)(const std::filesystem::path& path, const std::string& content, const Progress& progress);
 
 template <CheckedFile (*check)(std::string_view)>
 MeshFile read_checked(const std::filesystem::path&, const std::string& content, const Progress& progress)
@@ -23,7 +23,7 @@ MeshFile read_checked(const std::filesystem::path&, const std::string& content, 
 MeshFile read_stl(const std::filesystem::path& path, const std::string& content, const Progress& progress)
 {
     MeshFile file = read_checked<check_stl>(path, content, progress);
-    file.apart = true;
+    file.own_corners = true;
     return file;
 }
 
@@ -34,25 +34,25 @@ MeshFile read_scene(const std::filesystem::path& path, const std::string& conten
     return {std::move(gltf.soup), binary ? "glTF (binary)" : "glTF (text)", std::move(gltf.notes), LengthUnit::m, true};
 }
 
-const std::vector<FormatReader<Read>>& readers()
+const std::vector<FormatReader<ReadMesh>>& mesh_readers()
 {
-    static const std::vector<FormatReader<Read>> all = {{{"STL", {".stl"}}, read_stl},
-                                                        {{"OBJ", {".obj"}}, read_checked<check_obj>},
-                                                        {{"PLY", {".ply"}}, read_checked<check_ply>},
-                                                        {{"OFF", {".off"}}, read_checked<check_off>},
-                                                        {{"glTF", {".gltf", ".glb"}}, read_scene}};
+    static const std::vector<FormatReader<ReadMesh>> all = {{{"STL", {".stl"}}, read_stl},
+                                                            {{"OBJ", {".obj"}}, read_checked<check_obj>},
+                                                            {{"PLY", {".ply"}}, read_checked<check_ply>},
+                                                            {{"OFF", {".off"}}, read_checked<check_off>},
+                                                            {{"glTF", {".gltf", ".glb"}}, read_scene}};
     return all;
 }
 
 } // namespace
 
-std::vector<FileFormat> mesh_formats() { return formats_of(readers()); }
+std::vector<FileFormat> mesh_formats() { return formats_of(mesh_readers()); }
 
 MeshFile read_mesh_file(const std::filesystem::path& path, const Progress& progress)
 {
     const std::string content = file_content(path);
     progress.checkpoint(0.2, "reading the file");
-    return reader_of(readers(), path)(path, content, progress.part(0.2, 1));
+    return reader_of(mesh_readers(), path)(path, content, progress.part(0.2, 1));
 }
 
 } // namespace spia

@@ -17,7 +17,7 @@ struct MeshFile {
     std::string format;
     std::vector<std::string> notes;
     std::optional<LengthUnit> unit = {}; ///< that the specification of the format states
-    bool apart = false;                  ///< faces may have corners of their own where they meet
+    bool own_corners = false;            ///< faces may each have their own where they meet
 };
 
 /// Those that read_mesh_file() reads.

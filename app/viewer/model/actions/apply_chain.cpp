@@ -31,7 +31,7 @@ void ViewerModel::Apply::run_of_change(Stage to, const std::string& title, bool 
     const bool begins = !model.chain_job_;
     model.run_to(to, title);
     if (begins && model.chain_job_)
-        model.taken_back_ = {true, 1, unsaved};
+        model.on_cancel_ = {true, 1, unsaved};
 }
 
 void ViewerModel::Apply::operator()(const SetUnit& action)
@@ -127,7 +127,7 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     }
     model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Updating all");
     if (model.chain_job_)
-        model.taken_back_.unsaved = unsaved;
+        model.on_cancel_.unsaved_before = unsaved;
 }
 
 void ViewerModel::Apply::operator()(const CancelJob&)

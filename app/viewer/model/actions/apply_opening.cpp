@@ -36,7 +36,7 @@ void ViewerModel::Apply::end_runs()
     model.next_.reset();
     model.next_in_one_step_ = false;
     model.blank_next_.reset();
-    model.taken_back_ = {};
+    model.on_cancel_ = {};
     model.dragging_ = false;
     state.job = JobView{};
 }

@@ -113,7 +113,7 @@ void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
     model.show_step(std::nullopt, 0); // the part is looked at again, with the strains of its blank
     model.run_to(Stage::fit, action.polish ? "Polishing the blank of the steps" : "Using the blank of the steps");
     if (model.chain_job_)
-        model.taken_back_.unsaved = unsaved;
+        model.on_cancel_.unsaved_before = unsaved;
 }
 
 void ViewerModel::Apply::operator()(const OpenSteps& action)

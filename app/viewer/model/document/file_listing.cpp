@@ -52,7 +52,11 @@ ListedFile look_into(const std::filesystem::path& file, const Progress& progress
     return listed;
 }
 
-bool has_choices(const std::filesystem::path& file) { return kind_of_file(file) != FileKind::mesh; }
+bool has_choices(const std::filesystem::path& file)
+{
+    const std::optional<FileKind> kind = kind_of_file(file);
+    return kind && *kind != FileKind::mesh;
+}
 
 int proposed_item(const FileItems& items)
 {

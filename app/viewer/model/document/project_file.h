@@ -8,10 +8,9 @@
 #include "app/viewer/model/document/stored_picks.h"
 
 /// Project files (*.spia): JSON of the schema "spia-project/1". They keep what the user made and
-/// chose, not the results: opening runs the chain again. Any change of the form raises the version;
-/// a file of a newer one is refused.
+/// chose, not the results: opening runs the chain again. A file of a newer version is refused, and
+/// so is a member that is not known: a new one does without another version.
 ///
-/// |---|---|
 /// - `part.path`: `file`: relative to the project's folder; `was_at`: where it was when saved,
 ///   tried second
 /// - `part.unit`, `part.weld`, `part.weld_gap_mm`: of the file; null: as its format has it

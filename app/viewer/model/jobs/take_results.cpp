@@ -84,9 +84,9 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     state_.history.update_since(running_.depth_at_start, [&](Document& changed) { take_over(changed, result); });
     keep_before(result, quads, surface);
     if (superseded) {
-        taken_back_.change &= document.session.grid == before.grid && document.session.blank == before.blank;
-        if (!taken_back_.change)
-            taken_back_.unsaved.reset();
+        on_cancel_.undo &= document.session.grid == before.grid && document.session.blank == before.blank;
+        if (!on_cancel_.undo)
+            on_cancel_.unsaved_before.reset();
     }
     const bool taken_back = !superseded && forget_run_without_result(result, before);
     opening_ = false;
@@ -136,13 +136,13 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
 /// it. @returns whether it was
 bool ViewerModel::forget_run_without_result(const ChainResult& result, const Session& before)
 {
-    const TakenBack back = std::exchange(taken_back_, {});
+    const OnCancel back = std::exchange(on_cancel_, {});
     const Session& now = result.session;
-    if (!back.unsaved || !(result.cancelled || result.failed) ||
-        state_.history.depth() != (back.change ? running_.depth_noted : running_.depth_at_start) ||
+    if (!back.unsaved_before || !(result.cancelled || result.failed) ||
+        state_.history.depth() != (back.undo ? running_.depth_noted : running_.depth_at_start) ||
         now.part != before.part || now.blank != before.blank || now.grid != before.grid)
         return false;
-    if (back.change) { // one that has failed stays, for its advice to be followed
+    if (back.undo) { // one that has failed stays, for its advice to be followed
         if (!result.cancelled || now.lifted != before.lifted || now.surface != before.surface)
             return false;
         for (size_t k = 0; k < back.changes; ++k)
@@ -151,7 +151,7 @@ bool ViewerModel::forget_run_without_result(const ChainResult& result, const Ses
         return true;
     }
     state_.history.forget_last();
-    state_.document.unsaved &= *back.unsaved;
+    state_.document.unsaved &= *back.unsaved_before;
     if (now.blank)
         state_.document.session.options.steps = state_.document.made_with.steps;
     else

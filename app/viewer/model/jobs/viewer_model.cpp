@@ -159,8 +159,8 @@ void ViewerModel::run_to(Stage to, const std::string& title)
         next_ = std::max(next_.value_or(to), to);
         if (is_superseded()) {
             const size_t changes = state_.history.depth() - std::exchange(running_.depth_noted, state_.history.depth());
-            taken_back_.change &= changes <= 1; // else something else was done meanwhile
-            taken_back_.changes += changes;
+            on_cancel_.undo &= changes <= 1; // else something else was done meanwhile
+            on_cancel_.changes += changes;
             running_.superseded = true;
             chain_job_->cancel();
             cancelled_at_ = cancelled_at_.value_or(std::chrono::steady_clock::now());

@@ -158,7 +158,7 @@ private:
     /// The running job of the chain.
     struct RunningChain {
         SessionOptions options; ///< that it was begun with
-        Stage to;
+        Stage to = Stage::read;
         bool coarse = false;       ///< for a corner that is dragged
         size_t depth_at_start = 0; ///< of the history, when it began
         size_t depth_noted = 0;    ///< when it began or its options were last seen to change
@@ -166,12 +166,12 @@ private:
     };
     RunningChain running_;
     /// What a cancel takes back, also of a run that took the place of one with older options.
-    struct TakenBack {
-        bool change = false;         ///< the change of options whose result is being made
-        size_t changes = 1;          ///< and those made meanwhile
-        std::optional<bool> unsaved; ///< before the run, if the run is a change of its own
+    struct OnCancel {
+        bool undo = false;                  ///< the change of options whose result is being made
+        size_t changes = 1;                 ///< that are undone: it, and those made meanwhile
+        std::optional<bool> unsaved_before; ///< not given: the run is no change, nothing goes back
     };
-    TakenBack taken_back_;
+    OnCancel on_cancel_;
     std::optional<Stage> next_;                  ///< run this far when the running job has ended
     bool next_in_one_step_ = false;              ///< and not from the blank of the steps
     double progress_from_ = 0, progress_to_ = 1; ///< of what was asked for, that of the running job

@@ -19,10 +19,7 @@
 namespace spia::viewer {
 namespace {
 
-bool is_cad_file(const FileItems& items)
-{
-    return items.format == "STEP" || items.format == "IGES" || items.format == "BREP";
-}
+bool is_cad_file(const FileItems& items) { return items.kind == FileKind::cad; }
 
 /// The choices that stand when the file appears: those that the part was read with if it is its
 /// file.

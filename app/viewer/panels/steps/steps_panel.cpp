@@ -57,7 +57,8 @@ void part_step(Frame& frame)
                      : light(frame, ChainStep::part, status(frame, Stage::read, session.part != nullptr)));
     if (ImGui::Button("Open..."))
         choose_part(frame);
-    tooltip(part_format_names() + ". You can also drop a file on the window.");
+    static const std::string formats = part_format_names() + ". You can also drop a file on the window.";
+    tooltip(formats);
     if (!session.part) {
         if (frame.state.refused)
             coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), session.file.filename().string());
