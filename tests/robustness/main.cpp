@@ -190,7 +190,8 @@ int main(int argc, char** argv)
     app.add_option("--edge", edge, "restraint of the outer edge, a share of the lock force")->capture_default_str();
     app.add_flag("--verbose", verbose, "a line per shape");
     app.add_flag("--unfold", unfold, "the bent parts instead, step by step, beside other methods");
-    app.add_option("--grids", grids, "grids over that many outlines of each kind instead, with corners drawn at random");
+    app.add_option("--grids", grids,
+                   "grids over that many outlines of each kind instead, with corners drawn at random");
     app.add_option("--layouts", layouts, "patches around the holes of that many plates drawn at random instead");
     app.add_option("--attempts", attempts, "JSON file of what was tried for each shape (tests/bench/attempts.py)");
     CLI11_PARSE(app, argc, argv);
