@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/flat/outline.h"
@@ -110,6 +111,17 @@ CertificateFigures certificate_figures(const Certificate& certificate)
     for (const InterfaceCertificate& joint : certificate.interfaces)
         figures.greatest_angle = std::max(figures.greatest_angle, joint.greatest_angle);
     return figures;
+}
+
+std::vector<size_t> worst_first(const Certificate& certificate)
+{
+    std::vector<size_t> order(certificate.patch.size());
+    std::iota(order.begin(), order.end(), size_t(0));
+    std::ranges::stable_sort(order, {}, [&](size_t p) {
+        const PatchCertificate& patch = certificate.patch[p];
+        return std::pair(!patch.refusal, patch.least_scaled);
+    });
+    return order;
 }
 
 ResultFigures result_figures(const Session& session)

@@ -67,6 +67,9 @@ struct CertificateFigures {
 };
 CertificateFigures certificate_figures(const Certificate& certificate);
 
+/// Numbers of the patches: those that are refused, then by rising least scaled Jacobian.
+std::vector<size_t> worst_first(const Certificate& certificate);
+
 /// All that is told of a session that is solved at least; nothing of what it has not.
 struct ResultFigures {
     SurfaceOfPart part;

@@ -73,6 +73,13 @@ TEST_F(GridByHand, TheSurfaceIsCutIntoPatches)
     value("/options/best_surface", true);
     hands->see_ready();
     hands->see_part_of_line("5 patches, because");
+    hands->scroll_to("Patches, worst first", left_x, left_y);
+    hands->click("Patches, worst first");
+    hands->scroll_to("2. patch", left_x, left_y, false);
+    hands->click_part("2. patch");
+    hands->see_that("where that patch is worst", [](const Json& r) { return r["spot"].is_number(); });
+    hands->keys("Escape");
+    hands->see_that("no spot", [](const Json& r) { return r["spot"].is_null(); });
 }
 
 TEST_F(GridByHand, TheSurfaceIsDeformedAndReset)

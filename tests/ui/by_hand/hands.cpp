@@ -117,12 +117,12 @@ void Hands::rest_on(const std::string& words, bool whole, double x, double y)
     throw Error("\"" + words + "\" does not stand still under the mouse");
 }
 
-Json Hands::scroll_to(const std::string& line, double x, double y)
+Json Hands::scroll_to(const std::string& line, double x, double y, bool whole)
 {
     Json now = viewer_.move(x, y);
     for (const int way : {-1, 1}) // down, then back up
         for (int notches = 0; notches < 60; ++notches) {
-            if (line_in(now, line, true))
+            if (line_in(now, line, whole))
                 return now;
             viewer_.wheel(way);
             x += notches % 2 ? -1 : 1; // a report comes when the mouse has moved

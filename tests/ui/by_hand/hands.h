@@ -34,8 +34,9 @@ public:
     void rest_on(const std::string& line);    ///< with the mouse, where it stands still
     void click_part(const std::string& part); ///< on a line that has this as its part
     void double_click(const std::string& line);
-    /// Turns the wheel over a place of the window until the line shows. @returns the report then
-    Json scroll_to(const std::string& line, double x, double y);
+    /// Turns the wheel over a place of the window until the line shows, or one that has this as its
+    /// part. @returns the report then
+    Json scroll_to(const std::string& line, double x, double y, bool whole = true);
     /// pixels from the middle of a line
     void click_beside(const std::string& line, double dx, double dy);
     void click_at(double x, double y);

@@ -117,6 +117,17 @@ TEST(Figures, OfPatchesAreThoseOfTheWorstOfThem)
     EXPECT_EQ(figures.greatest_angle, 0.3);
 }
 
+TEST(Figures, ListTheWorstPatchFirst)
+{
+    Certificate certificate;
+    certificate.patch.resize(4);
+    for (size_t p = 0; p < 4; ++p)
+        certificate.patch[p].least_scaled = std::array{0.7, 0.2, 0.9, 0.2}[p];
+    certificate.patch[2].refusal = Refusal{};
+    EXPECT_EQ(worst_first(certificate), (std::vector<size_t>{2, 1, 3, 0}));
+    EXPECT_TRUE(worst_first({}).empty());
+}
+
 TEST(Figures, AreTheSameInJson)
 {
     const Session session = session_of(dome, Stage::fit);
