@@ -131,8 +131,8 @@ struct ProposeCorners {}; ///< "propose_corners": automatic ones again
 struct SetGrid {
     GridOptions grid;
 }; ///< "set_grid": its options by their keys, as described<GridOptions> has them
-/// "set_fit": those of the surface by their keys, as members_of<FitChoice> has them; tolerance null:
-/// it runs through the nodes of the grid
+/// "set_fit": those of the surface by their keys, as members_of<FitChoice> has them; tolerance
+/// null: it runs through the nodes of the grid
 struct SetFit {
     FitChoice fit;
 };
