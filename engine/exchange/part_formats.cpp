@@ -21,9 +21,9 @@ struct Group {
 
 const std::array<Group, 3>& groups()
 {
-    static const std::array<Group, 3> all = {{{FileKind::cad, "CAD files", cad_formats()},
-                                              {FileKind::deck, "solver decks", deck_formats()},
-                                              {FileKind::mesh, "meshes", mesh_formats()}}};
+    static const std::array<Group, 3> all = {{{FileKind::cad, "CAD files", cad_file_formats()},
+                                              {FileKind::deck, "solver decks", deck_file_formats()},
+                                              {FileKind::mesh, "meshes", mesh_file_formats()}}};
     return all;
 }
 

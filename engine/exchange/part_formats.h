@@ -6,8 +6,8 @@
 
 #include "engine/exchange/file_format.h"
 
-/// What parts are read from. Each format stands in the table of its readers: mesh_formats(),
-/// deck_formats(), cad_formats(). What lists formats to people is made from these.
+/// What parts are read from. Each format stands in the table of its readers: mesh_file_formats(),
+/// deck_file_formats(), cad_file_formats(). What lists formats to people is made from these.
 namespace spia {
 
 enum class FileKind { cad, deck, mesh };

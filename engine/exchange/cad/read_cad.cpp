@@ -224,7 +224,7 @@ template <class Work> CadContent apart(const Work& work, std::chrono::seconds bu
 
 } // namespace
 
-std::vector<FileFormat> cad_formats() { return cad_shape_formats(); }
+std::vector<FileFormat> cad_file_formats() { return cad_shape_formats(); }
 
 CadContent read_cad(const std::filesystem::path& path, const CadOptions& options, std::span<const std::string> wanted,
                     std::optional<LengthUnit> unit, const Progress& progress)

@@ -78,7 +78,7 @@ struct CadContent {
 };
 
 /// Those that read_cad() reads.
-std::vector<FileFormat> cad_formats();
+std::vector<FileFormat> cad_file_formats();
 
 /// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one
 /// file at a time. That is done in a process of its own (in_child()), for OpenCASCADE crashes and

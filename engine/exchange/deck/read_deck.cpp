@@ -17,7 +17,7 @@ const std::vector<FormatReader<ReadDeck>>& deck_readers()
 
 } // namespace
 
-std::vector<FileFormat> deck_formats() { return formats_of(deck_readers()); }
+std::vector<FileFormat> deck_file_formats() { return formats_of(deck_readers()); }
 
 Deck read_deck(const std::filesystem::path& file, std::string content, const Progress& progress)
 {

@@ -12,7 +12,7 @@ namespace spia {
 
 /// Those that read_deck() reads: LS-DYNA keyword, Nastran bulk data, Abaqus and CalculiX, Gmsh,
 /// Radioss starter.
-std::vector<FileFormat> deck_formats();
+std::vector<FileFormat> deck_file_formats();
 
 /// Reads nodes, shells, parts, thicknesses and material names of a deck and of the files that it
 /// includes; what else is in it is passed over, and a note says so. A checkpoint every few thousand

@@ -46,7 +46,7 @@ const std::vector<FormatReader<ReadMesh>>& mesh_readers()
 
 } // namespace
 
-std::vector<FileFormat> mesh_formats() { return formats_of(mesh_readers()); }
+std::vector<FileFormat> mesh_file_formats() { return formats_of(mesh_readers()); }
 
 MeshFile read_mesh_file(const std::filesystem::path& path, const Progress& progress)
 {

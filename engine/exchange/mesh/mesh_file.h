@@ -21,9 +21,9 @@ struct MeshFile {
 };
 
 /// Those that read_mesh_file() reads.
-std::vector<FileFormat> mesh_formats();
+std::vector<FileFormat> mesh_file_formats();
 
-/// @param path  of one of the mesh_formats()
+/// @param path  of one of the mesh_file_formats()
 /// @throws InputError  the file is damaged
 MeshFile read_mesh_file(const std::filesystem::path& path, const Progress& progress);
 
