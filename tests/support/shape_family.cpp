@@ -714,7 +714,7 @@ std::vector<FamilyShape> shape_family(int triangles, std::uint64_t seed)
     add("several pieces", 3, several_pieces, Expected::refusal);
     add("several pieces, largest", 3, several_pieces, Expected::blank, true);
     add("both skins", 3, both_skins,
-        Expected::either); // a sheet of one thickness gives its outer skin, any other is refused
+        Expected::either); // a sheet of one thickness gives its middle surface, any other is refused
     add("crumpled", 8, crumpled);
     add("whiskers", 6, whiskers);
     add("pinhole", 5, pinhole);
