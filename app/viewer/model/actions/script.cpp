@@ -275,21 +275,38 @@ template <> ChangeStep before(const Json& json, const ViewerState& state)
     return ChangeStep::unchanged(number->get<int>(), *steps[number->get<size_t>()]);
 }
 
-template <class T> T read_action(const Json& json, const ViewerState& base, const Place& place)
+/// A Form without its types.
+struct AnyForm {
+    std::string_view name;
+    bool (*is_of)(const Action& action);
+    Action (*read)(const Json& json, const ViewerState& base, const Place& place);
+    void (*write_members)(const Action& action, Json& json);
+};
+
+template <class... T> constexpr auto any_forms(ActionKinds<T...>)
 {
-    constexpr const auto& form = form_of<T>;
-    T action = before<T>(json, base);
-    read_members(json, holder(form, action), form.members, place, "do");
-    return action;
+    return std::array{AnyForm{form_of<T>.name, [](const Action& action) { return action.is<T>(); },
+                              [](const Json& json, const ViewerState& base, const Place& place) {
+                                  T action = before<T>(json, base);
+                                  read_members(json, holder(form_of<T>, action), form_of<T>.members, place, "do");
+                                  return Action(std::move(action));
+                              },
+                              [](const Action& action, Json& json) {
+                                  write_members(holder(form_of<T>, *action.as<T>()), form_of<T>.members, json);
+                              }}...};
+}
+constexpr auto every_form = any_forms(AllActions{});
+
+const AnyForm& form_of_action(const Action& action)
+{
+    return *std::find_if(every_form.begin(), every_form.end(), [&](const AnyForm& form) { return form.is_of(action); });
 }
 
 std::string known_actions()
 {
     std::string list = "wait, expect";
-    AllActions::any([&]<class T>(std::type_identity<T>) {
-        list += fmt::format(", {}", form_of<T>.name);
-        return false;
-    });
+    for (const AnyForm& form : every_form)
+        list += fmt::format(", {}", form.name);
     return list;
 }
 
@@ -304,15 +321,11 @@ std::string name_of_step(const Json& json, const Place& place)
 Action read_any_action(const Json& json, const ViewerState& base, const Place& place)
 {
     const std::string name = name_of_step(json, place);
-    std::optional<Action> action;
-    AllActions::any([&]<class T>(std::type_identity<T>) {
-        if (form_of<T>.name == name)
-            action = read_action<T>(json, base, place);
-        return action.has_value();
-    });
-    if (!action)
+    const auto form =
+        std::find_if(every_form.begin(), every_form.end(), [&](const AnyForm& each) { return each.name == name; });
+    if (form == every_form.end())
         place.fail(fmt::format("is no action: \"{}\"; there are: {}", name, known_actions()));
-    return *action;
+    return form->read(json, base, place);
 }
 
 Expect read_expect(const Json& json, const Place& place)
@@ -409,23 +422,13 @@ Action action_from_json(const Json& json)
     return action_from_json(json, new_program);
 }
 
-std::string_view name(const Action& action)
-{
-    std::string_view name;
-    visit_action([&]<class T>(const T&) { name = form_of<T>.name; }, action);
-    return name;
-}
+std::string_view name(const Action& action) { return form_of_action(action).name; }
 
 Json to_json(const Action& action)
 {
-    Json json;
-    visit_action(
-        [&]<class T>(const T& each) {
-            constexpr const auto& form = form_of<T>;
-            json = {{"do", form.name}};
-            write_members(holder(form, each), form.members, json);
-        },
-        action);
+    const AnyForm& form = form_of_action(action);
+    Json json{{"do", form.name}};
+    form.write_members(action, json);
     return json;
 }
 
