@@ -4,31 +4,17 @@
 #include <memory>
 #include <optional>
 
-#include "app/viewer/model/actions/script.h"
-#include "app/viewer/model/picking/camera.h"
+#include "tests/ui/on_screen.h"
 #include "tests/ui/viewer_process.h"
 
 namespace spia::viewer {
 namespace {
 
-/// A place in the picture of a view, by shares of its width and height; pixels of the window.
-glm::dvec2 in_view(const Json& report, const char* view, double x, double y)
-{
-    const Json& place = report.at("window").at("views").at(view);
-    return {place["at"][0].get<double>() + x * place["size"][0].get<double>(),
-            place["at"][1].get<double>() + y * place["size"][1].get<double>()};
-}
-
 /// Where a corner of the grid lies on the blank; pixels of the window.
 glm::dvec2 corner_on_screen(const Json& report, int corner)
 {
-    Json action = report.at("view");
-    action["do"] = "set_view";
-    const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
-    const Json &size = report["window"]["views"]["blank"]["size"], &at = report["corners"][size_t(corner)]["blank"];
-    const glm::dvec2 pixel(pixel_of(settings.camera[size_t(View::blank)], {at[0].get<double>(), at[1].get<double>(), 0},
-                                    {size[0].get<double>(), size[1].get<double>()}));
-    return in_view(report, "blank", 0, 0) + pixel;
+    const Json& at = report["corners"][size_t(corner)]["blank"];
+    return on_screen(report, View::blank, {at[0].get<double>(), at[1].get<double>(), 0});
 }
 
 /// A window of 1366 by 768 pixels with the sample part as a project, unfolded by key: every test
@@ -96,7 +82,7 @@ struct Mouse : testing::Test {
 TEST_F(Mouse, PicksFacesAndTakesItBack)
 {
     tool("p", "pick");
-    const glm::dvec2 first = in_view(viewer->report(), "part", 0.5, 0.55);
+    const glm::dvec2 first = in_view(viewer->report(), View::part, 0.5, 0.55);
     const Json hovered = viewer->move(first.x, first.y)["hovered"];
     ASSERT_TRUE(hovered.is_number()) << "the part is not in the middle of its view";
     viewer->press(1);
@@ -107,7 +93,7 @@ TEST_F(Mouse, PicksFacesAndTakesItBack)
     glm::dvec2 second = first;
     while (viewer->report()["hovered"].is_null() || viewer->report()["hovered"] == hovered) {
         second.x += 10;
-        ASSERT_LT(second.x, in_view(now, "part", 1, 1).x) << "there is no other face to the right";
+        ASSERT_LT(second.x, in_view(now, View::part, 1, 1).x) << "there is no other face to the right";
         viewer->move(second.x, second.y);
     }
     viewer->hold("shift");
@@ -116,7 +102,7 @@ TEST_F(Mouse, PicksFacesAndTakesItBack)
     now = wait_for("/selection/faces", 2);
 
     tool("b", "box");
-    const glm::dvec2 from = in_view(now, "part", 0.3, 0.3), to = in_view(now, "part", 0.7, 0.8);
+    const glm::dvec2 from = in_view(now, View::part, 0.3, 0.3), to = in_view(now, View::part, 0.7, 0.8);
     viewer->drag(from.x, from.y, to.x, to.y);
     now = viewer->wait("faces in a box", [](const Json& r) { return r["selection"]["faces"] > 100; });
     const Json in_box = now["selection"];
@@ -138,7 +124,7 @@ TEST_F(Mouse, ADragFasterThanAFrameKeepsItsStart)
 {
     tool("b", "box");
     const Json before = viewer->report();
-    const glm::dvec2 from = in_view(before, "part", 0.3, 0.3), to = in_view(before, "part", 0.7, 0.8);
+    const glm::dvec2 from = in_view(before, View::part, 0.3, 0.3), to = in_view(before, View::part, 0.7, 0.8);
     viewer->drag(from.x, from.y, to.x, to.y);
     Json now = viewer->wait("faces in a box", [](const Json& r) { return r["selection"]["faces"] > 100; });
     const Json in_box = now["selection"];
@@ -161,7 +147,7 @@ TEST_F(Mouse, ADragFasterThanAFrameKeepsItsStart)
 TEST_F(Mouse, TurnsZoomsAndEnlargesViews)
 {
     const Json before = viewer->report();
-    const glm::dvec2 middle = in_view(before, "part", 0.5, 0.5);
+    const glm::dvec2 middle = in_view(before, View::part, 0.5, 0.5);
     viewer->drag(middle.x, middle.y, middle.x + 60, middle.y + 30, 3);
     Json now = viewer->wait("a turned part", [&](const Json& r) {
         return r["view"]["camera"]["part"]["turn"] != before["view"]["camera"]["part"]["turn"];
@@ -182,7 +168,7 @@ TEST_F(Mouse, TurnsZoomsAndEnlargesViews)
     });
 
     for (const Json& wanted : {Json("blank"), Json(nullptr)}) {
-        const glm::dvec2 title = in_view(viewer->report(), "blank", 0.3, 0) - glm::dvec2(0, 12);
+        const glm::dvec2 title = in_view(viewer->report(), View::blank, 0.3, 0) - glm::dvec2(0, 12);
         for (int tries = 0; tries < 8; ++tries) { // a double click is a matter of time: 0.3 s, yet
                                                   // in two frames
             viewer->move(title.x, title.y);
@@ -274,28 +260,21 @@ TEST_F(Mouse, DragsAControlPointAndALatticePointAndTakesThemBack)
 {
     unfold();
     Json now = tool("k", "shape");
-    const auto on_screen = [](const Json& report, const Json& at) {
-        Json action = report.at("view");
-        action["do"] = "set_view";
-        const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
-        const Json& size = report["window"]["views"]["surface"]["size"];
-        const glm::dvec2 pixel(pixel_of(settings.camera[size_t(View::surface)],
-                                        {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()},
-                                        {size[0].get<double>(), size[1].get<double>()}));
-        return in_view(report, "surface", 0, 0) + pixel;
+    const auto on_surface = [](const Json& report, const Json& at) {
+        return on_screen(report, View::surface, {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()});
     };
     const auto drag = [&](const char* undo_name) {
-        const glm::dvec2 middle = in_view(viewer->report(), "surface", 0.45, 0.55);
+        const glm::dvec2 middle = in_view(viewer->report(), View::surface, 0.45, 0.55);
         for (double right = 0; viewer->report()["handles"]["picked"].empty() && right < 120; right += 12) {
             viewer->click(middle.x + right, middle.y); // a lattice is wide: look for a point
         }
         now = viewer->report();
         ASSERT_EQ(now["handles"]["picked"].size(), 1u);
         const Json before = now["handles"]["picked"][0];
-        const glm::dvec2 from = on_screen(now, before["at"]), to = from + glm::dvec2(40, -25);
+        const glm::dvec2 from = on_surface(now, before["at"]), to = from + glm::dvec2(40, -25);
         viewer->drag(from.x, from.y, to.x, to.y);
         now = viewer->wait("the handle under the mouse", [&](const Json& r) {
-            return glm::length(on_screen(r, r["handles"]["picked"][0]["at"]) - to) < 2;
+            return glm::length(on_surface(r, r["handles"]["picked"][0]["at"]) - to) < 2;
         });
         EXPECT_EQ(now["handles"]["picked"][0]["number"], before["number"]);
         EXPECT_EQ(now["history"]["undo"], undo_name);

@@ -8,11 +8,11 @@
 #include <numbers>
 #include <thread>
 
-#include "app/viewer/model/actions/script.h"
 #include "engine/exchange/cad/write_step.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/ui/by_hand/drop_source.h"
 #include "tests/ui/by_hand/hands.h"
+#include "tests/ui/on_screen.h"
 
 namespace spia::viewer {
 namespace {
@@ -57,25 +57,8 @@ struct Channel {
     }
 };
 
-/// A place in the picture of a view, by shares of its width and height; pixels of the window.
-glm::dvec2 in_view(const Json& report, const char* view, double x, double y)
-{
-    const Json& place = report.at("window").at("views").at(view);
-    return {place["at"][0].get<double>() + x * place["size"][0].get<double>(),
-            place["at"][1].get<double>() + y * place["size"][1].get<double>()};
-}
-
 /// A place of the blank; pixels of the window. @param at  mm
-glm::dvec2 of_blank(const Json& report, glm::dvec2 at)
-{
-    Json action = report.at("view");
-    action["do"] = "set_view";
-    const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
-    const Json& size = report["window"]["views"]["blank"]["size"];
-    const glm::dvec2 pixel(pixel_of(settings.camera[size_t(View::blank)], {at.x, at.y, 0},
-                                    {size[0].get<double>(), size[1].get<double>()}));
-    return in_view(report, "blank", 0, 0) + pixel;
-}
+glm::dvec2 of_blank(const Json& report, glm::dvec2 at) { return on_screen(report, View::blank, {at.x, at.y, 0}); }
 
 /// Where a corner of the grid lies on the blank, mm.
 glm::dvec2 corner_of(const Json& report, int corner)
@@ -212,7 +195,7 @@ TEST_P(ByHandOnScreens, FromAnEmptyStartToFilesAndBack)
 
     // The web stays: what is flat in the middle of the view.
     hands->tool("Smooth");
-    const glm::dvec2 middle = in_view(hands->viewer().report(), "part", 0.5, 0.5);
+    const glm::dvec2 middle = in_view(hands->viewer().report(), View::part, 0.5, 0.5);
     hands->click_at(middle.x, middle.y);
     now = hands->see_that("picked faces", [](const Json& r) { return r["selection"]["faces"] > 0; });
     const std::string make = fmt::format("Make region of {} faces", now["selection"]["faces"].get<int>());
@@ -380,7 +363,7 @@ TEST_F(ByHand, AFileThatIsDroppedOpens)
     Channel::write(folder / "channel.step");
     start();
     const Json before = hands->viewer().report();
-    const glm::dvec2 at = in_view(before, "part", 0.5, 0.5);
+    const glm::dvec2 at = in_view(before, View::part, 0.5, 0.5);
     drop_files(hands->viewer().window(), {folder / "channel.step"}, int(at.x), int(at.y));
     hands->see("Import a part");
     hands->keys("Return");

@@ -88,7 +88,7 @@ TEST_F(GridByHand, TheSurfaceIsDeformedAndReset)
     const Json before = hands->viewer().report();
     // A control point somewhere near the middle: the drag begins where one is picked.
     for (double y = 0.45; y < 0.65 && hands->viewer().report()["handles"]["picked"].empty(); y += 0.015)
-        click_in("surface", 0.5, y);
+        click_in(View::surface, 0.5, y);
     Json now = hands->see_that("a control point", [](const Json& r) { return r["handles"]["picked"].size() == 1; });
     click_left("Move by, mm");
     hands->click_beside("Move by, mm", -70, 0); // the third number

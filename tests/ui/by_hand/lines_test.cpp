@@ -11,7 +11,7 @@ protected:
     void draw(std::initializer_list<glm::dvec2> places)
     {
         for (const glm::dvec2& at : places)
-            click_in("part", at.x, at.y);
+            click_in(View::part, at.x, at.y);
         hands->keys("Return");
     }
 };

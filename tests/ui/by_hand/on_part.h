@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "app/viewer/model/actions/script.h"
 #include "tests/ui/by_hand/hands.h"
+#include "tests/ui/on_screen.h"
 
 namespace spia::viewer {
 
@@ -62,28 +62,14 @@ protected:
             return std::find(pushed.begin(), pushed.end(), action) != pushed.end();
         });
     }
-    /// By shares of the width and height of a view; pixels of the window.
-    glm::dvec2 in_view(const char* view, double x, double y)
-    {
-        const Json place = hands->viewer().report()["window"]["views"][view];
-        return {place["at"][0].get<double>() + x * place["size"][0].get<double>(),
-                place["at"][1].get<double>() + y * place["size"][1].get<double>()};
-    }
     /// A place of the part, or with z = 0 of the blank, mm; pixels of the window.
     glm::dvec2 on_screen(View view, const Eigen::Vector3d& place)
     {
-        const Json report = hands->viewer().report();
-        Json action = report.at("view");
-        action["do"] = "set_view";
-        const ViewSettings settings = action_from_json(action).as<SetViewSettings>()->view;
-        const std::string called(name(view));
-        const Json& size = report["window"]["views"][called]["size"];
-        return in_view(called.c_str(), 0, 0) + glm::dvec2(pixel_of(settings.camera[size_t(view)], place,
-                                                                   {size[0].get<double>(), size[1].get<double>()}));
+        return viewer::on_screen(hands->viewer().report(), view, place);
     }
-    void click_in(const char* view, double x, double y)
+    void click_in(View view, double x, double y)
     {
-        const glm::dvec2 at = in_view(view, x, y);
+        const glm::dvec2 at = in_view(hands->viewer().report(), view, x, y);
         hands->click_at(at.x, at.y);
     }
     /// In the panel of the steps: scrolls until the line shows, and clicks it.

@@ -12,7 +12,7 @@ TEST_F(RegionsByHand, ARegionIsNamedBecomesAPieceOfATailoredBlankAndGoes)
 {
     start("assets/parts/dome.obj");
     hands->click("Brush");
-    click_in("part", 0.5, 0.55);
+    click_in(View::part, 0.5, 0.55);
     Json now = hands->see_that("painted faces", [](const Json& r) { return r["selection"]["faces"] > 0; });
     const int faces = now["selection"]["faces"];
     click_left(fmt::format("Make region of {} faces", faces));
@@ -47,9 +47,9 @@ TEST_F(RegionsByHand, ProbesAndWorstSpotsAreGoneTo)
     hands->keys("F6");
     hands->see_that("the blank", [](const Json& r) { return r["stages"]["solve"] == true; });
     hands->click("Probe");
-    click_in("part", 0.5, 0.5);
+    click_in(View::part, 0.5, 0.5);
     count("/probes", 1);
-    click_in("part", 0.55, 0.45);
+    click_in(View::part, 0.55, 0.45);
     Json now = count("/probes", 2);
     const auto row = [&](int probe) { return fmt::format("face {}", now["probes"][size_t(probe)]["face"].get<int>()); };
     hands->scroll_to("Remove all", right_x, right_y);
@@ -84,7 +84,7 @@ TEST_F(RegionsByHand, PickedVerticesAreListedAndBecomePilots)
     hands->click("Vertex");
     // one is near somewhere
     for (double y = 0.5; y < 0.7 && hands->viewer().report()["vertices"].empty(); y += 0.015)
-        click_in("part", 0.5, y);
+        click_in(View::part, 0.5, y);
     Json now = count("/vertices", 1);
     hands->click_beside("x, y, z, mm", 0, 18); // the first row
     pushed("fly_to_vertex");

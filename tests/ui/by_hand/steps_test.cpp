@@ -21,7 +21,7 @@ protected:
     void region_at(double x, double y)
     {
         hands->click("Flood");
-        click_in("part", x, y);
+        click_in(View::part, x, y);
         const Json now = hands->see_that("picked faces", [](const Json& r) { return r["selection"]["faces"] > 0; });
         click_left(fmt::format("Make region of {} faces", now["selection"]["faces"].get<int>()));
     }
@@ -34,7 +34,7 @@ TEST_F(StepsByHand, AStepIsAddedAimedSavedRemovedAndOpened)
     Json now = count("/regions", 1);
     hands->menu("View", "Look from", "Front");
     hands->keys("Escape");
-    click_in("part", 0.5, 0.5); // a wall
+    click_in(View::part, 0.5, 0.5); // a wall
     now = hands->see_that("picked faces", [](const Json& r) { return r["selection"]["faces"] > 0; });
     const int wall = now["selection"]["faces"];
     click_left("Step by step");
