@@ -12,7 +12,7 @@ namespace spia {
 
 namespace {
 
-constexpr int most_steps = 150;
+constexpr int most_local_steps = 150;
 constexpr double area_weight = 0.3;             // of keeping the areas against keeping the shapes
 constexpr double folded_mean = 1e-4;            // determinant over squared edges below which the
                                                 // mean is taken of more cells
@@ -143,7 +143,7 @@ void untangle_locally(QuadGrid& planar, int around, const Progress& progress)
         const Eigen::Matrix2Xd before = planar.position(Eigen::seq(0, 1), corners.node);
         Eigen::Matrix2Xd position = before;
         UntangleElementsOptions options;
-        options.most_steps = most_steps;
+        options.most_steps = most_local_steps;
         options.area_weight = area_weight;
         options.element_area = mean_area(corners.elements);
         untangle_elements(position, corners.elements, {}, options,

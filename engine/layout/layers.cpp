@@ -19,18 +19,18 @@ namespace {
 using Point = Eigen::Vector2d;
 
 using std::numbers::pi;
-constexpr double bulge = 0.02;                 ///< over its chord: an arc that is so far from
-                                               ///< straight gets a layer
-constexpr double most_turn = 100 * pi / 180;   ///< of an arc
-constexpr double sharp = 40 * pi / 180;        ///< a place at which an arc is divided first
-constexpr double share_of_gap = 0.35;          ///< of the way to the border across: leaves room for
-                                               ///< the layer over there
-constexpr double share_of_arc = 0.8;           ///< of the length of the arcs beside it: deepest
-constexpr double least_clearance = 0.3;        ///< of the layer's depth, left between the arc and
-                                               ///< the layer's inner line
-constexpr double least_beside = 0.6;           ///< of the depth: distance of the inner line from
-                                               ///< all of the border
-constexpr double least_corner = 25 * pi / 180; ///< of a layer's patches, and its complement
+constexpr double bulge = 0.02;                   ///< over its chord: an arc that is so far from
+                                                 ///< straight gets a layer
+constexpr double most_arc_turn = 100 * pi / 180; ///< of an arc
+constexpr double sharp = 40 * pi / 180;          ///< a place at which an arc is divided first
+constexpr double share_of_gap = 0.35;            ///< of the way to the border across: leaves room for
+                                                 ///< the layer over there
+constexpr double share_of_arc = 0.8;             ///< of the length of the arcs beside it: deepest
+constexpr double least_clearance = 0.3;          ///< of the layer's depth, left between the arc and
+                                                 ///< the layer's inner line
+constexpr double least_beside = 0.6;             ///< of the depth: distance of the inner line from
+                                                 ///< all of the border
+constexpr double least_corner = 25 * pi / 180;   ///< of a layer's patches, and its complement
 constexpr double thinner = 0.7;
 constexpr int most_rounds = 200;
 constexpr double longest_arc = 4; ///< over its distance from the rest of the border
@@ -306,7 +306,7 @@ private:
         for (int c = 0; c < int(graph_.curve.size()); ++c) {
             progress_.checkpoint(0, "dividing the border");
             while ((graph_.curve[size_t(c)].kept || graph_.curve[size_t(c)].plane.cols() > 2) &&
-                   (range_of_turns(graph_.curve[size_t(c)]) > most_turn ||
+                   (range_of_turns(graph_.curve[size_t(c)]) > most_arc_turn ||
                     length(graph_.curve[size_t(c)]) >
                         std::max(longest_arc * distance_to_rest(c),
                                  graph_.curve[size_t(c)].kept ? least_piece * (high - low) : 0)))

@@ -11,7 +11,7 @@ namespace spia {
 
 namespace {
 
-constexpr int most_rounds = 12;           // of trying; then all stay as they were
+constexpr int most_smoothing_rounds = 12; // of trying; then all stay as they were
 constexpr int rounds_before_widening = 3; // then those beside spoilt patches are kept as well
 constexpr double no_worse = 1e-3;         // radians, by which the angle of a join may grow while
                                           // others get smooth
@@ -61,7 +61,7 @@ PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJ
         const Progress here = progress.part(1 - std::pow(0.7, round), 1 - std::pow(0.7, round + 1));
         SmoothJoins smooth = smooth_joins(fit.patches, options, here.part(0, 0.5));
         fit.joins = {smooth.angle_before, smooth.angle_after, smooth.places, smooth.edges, count(options.kept)};
-        if (smooth.greatest_move == 0 || round == most_rounds) {
+        if (smooth.greatest_move == 0 || round == most_smoothing_rounds) {
             fit.joins->kept = int(options.kept.size());
             fit.joins->angle_after = smooth.angle_before;
             return now;

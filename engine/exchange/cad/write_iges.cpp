@@ -49,7 +49,7 @@ Handle(IGESGeom_BSplineSurface) entity_128(const NurbsSurface& surface, LengthUn
     return entity;
 }
 
-double largest_coordinate(std::span<const NurbsSurface> surfaces)
+double greatest_coordinate(std::span<const NurbsSurface> surfaces)
 {
     double result = 0;
     for (const NurbsSurface& surface : surfaces)
@@ -74,7 +74,7 @@ void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface>
             }
             return list;
         };
-        return iges_text(entities, largest_coordinate(surfaces), path.filename().string(), part_name, unit);
+        return iges_text(entities, greatest_coordinate(surfaces), path.filename().string(), part_name, unit);
     });
 }
 

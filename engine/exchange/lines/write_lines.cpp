@@ -46,7 +46,7 @@ std::vector<double> arc(const Eigen::Matrix3Xd& points)
     return at;
 }
 
-double largest_coordinate(std::span<const SheetLine> lines)
+double greatest_coordinate(std::span<const SheetLine> lines)
 {
     double largest = 0;
     for (const SheetLine& line : lines)
@@ -161,7 +161,7 @@ void write_lines_iges(const std::filesystem::path& path, std::span<const SheetLi
                 list.push_back(entity_126(line, unit));
             return list;
         };
-        return iges_text(entities, largest_coordinate(lines), path.filename().string(), part_name, unit);
+        return iges_text(entities, greatest_coordinate(lines), path.filename().string(), part_name, unit);
     });
 }
 

@@ -45,7 +45,7 @@ struct Property {
     Type length_type = Type::u8;
 };
 
-struct Element {
+struct PlyElement {
     std::string name;
     int count = 0;
     std::vector<Property> properties;
@@ -53,7 +53,7 @@ struct Element {
 
 struct Header {
     enum { text, little, big } encoding = text;
-    std::vector<Element> elements;
+    std::vector<PlyElement> elements;
     std::string_view body;
 };
 
@@ -167,7 +167,7 @@ private:
 };
 
 /// A count or an index: whole, not negative, below the limit.
-int whole(double value, double limit, const Element& element, int i)
+int whole(double value, double limit, const PlyElement& element, int i)
 {
     if (!(value >= 0 && value < limit && value == std::floor(value)))
         throw InputError(
@@ -186,7 +186,7 @@ template <class T> void append(std::string& content, T value)
 void require_room(const Header& header)
 {
     double least = 0;
-    for (const Element& element : header.elements)
+    for (const PlyElement& element : header.elements)
         for (const Property& p : element.properties) // a word and its blank, or the bytes of a
                                                      // value or of an empty list
             least += double(element.count) *
@@ -198,9 +198,9 @@ void require_room(const Header& header)
 }
 
 /// The only element of that name; null: there is none.
-const Element* only(const Header& header, std::string_view name)
+const PlyElement* only(const Header& header, std::string_view name)
 {
-    const auto is = [&](const Element& e) { return e.name == name; };
+    const auto is = [&](const PlyElement& e) { return e.name == name; };
     const auto count = std::count_if(header.elements.begin(), header.elements.end(), is);
     if (count > 1)
         throw InputError(fmt::format("the file has {} elements '{}', where one is read", count, name));
@@ -212,7 +212,7 @@ bool is_corners(const Property& property)
     return property.list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-void read_vertex(Values& values, const Element& element, int i, std::vector<Eigen::Vector3d>& position,
+void read_vertex(Values& values, const PlyElement& element, int i, std::vector<Eigen::Vector3d>& position,
                  std::string& content)
 {
     Eigen::Vector3d p = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -249,7 +249,7 @@ struct Polygons {
     }
 };
 
-void read_face(Values& values, const Element& element, int i, Polygons& polygons)
+void read_face(Values& values, const PlyElement& element, int i, Polygons& polygons)
 {
     for (const Property& property : element.properties) {
         const double value = values.next(property.list ? property.length_type : property.type);
@@ -270,7 +270,7 @@ void read_face(Values& values, const Element& element, int i, Polygons& polygons
 /// Strips of triangles in one list, each ended by -1: every second triangle runs through its
 /// corners the other way about. A corner that is repeated only joins strips. [Turk, The PLY Polygon
 /// File Format, 1994; vtkPLYReader]
-void read_strips(Values& values, const Element& element, int i, Polygons& polygons)
+void read_strips(Values& values, const PlyElement& element, int i, Polygons& polygons)
 {
     for (const Property& property : element.properties) {
         const double value = values.next(property.list ? property.length_type : property.type);
@@ -302,10 +302,11 @@ CheckedFile check_ply(std::string_view file)
 {
     const Header header = read_header(file);
     require_room(header);
-    const Element *vertex = only(header, "vertex"), *face = only(header, "face"), *strips = only(header, "tristrips");
+    const PlyElement *vertex = only(header, "vertex"), *face = only(header, "face"),
+                     *strips = only(header, "tristrips");
     if (!vertex || (!face && !strips))
         throw InputError("the file must have the elements 'vertex' and 'face' or 'tristrips'; save it as a mesh");
-    for (const Element* shape : {face, strips}) {
+    for (const PlyElement* shape : {face, strips}) {
         if (!shape)
             continue;
         if (std::count_if(shape->properties.begin(), shape->properties.end(), is_corners) != 1)
@@ -313,7 +314,7 @@ CheckedFile check_ply(std::string_view file)
         if (vertex > shape)
             throw InputError("the faces stand before the vertices; save the mesh anew");
     }
-    for (const Element& element : header.elements)
+    for (const PlyElement& element : header.elements)
         if (element.properties.empty() && element.count > 0)
             throw InputError(fmt::format("the element '{}' has no properties", element.name.substr(0, 40)));
 
@@ -326,8 +327,8 @@ CheckedFile check_ply(std::string_view file)
     std::string positions;
     Polygons polygons{.vertices = vertex->count, .content = {}};
     Values values(header);
-    const Element* const last = std::max(face, strips); // nothing behind it is of interest
-    for (const Element& element : header.elements) {
+    const PlyElement* const last = std::max(face, strips); // nothing behind it is of interest
+    for (const PlyElement& element : header.elements) {
         for (int i = 0; i < element.count; ++i)
             if (&element == vertex)
                 read_vertex(values, element, i, result.position, positions);

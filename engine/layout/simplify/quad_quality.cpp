@@ -11,7 +11,7 @@ namespace spia {
 
 namespace {
 
-constexpr size_t most_lines = 48; // of a grid along a side
+constexpr size_t most_grid_lines = 48; // of a grid along a side
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -36,7 +36,7 @@ double straight_quality(const std::array<Eigen::Vector2d, 4>& corner)
 /// Shares of two opposite sides, in the direction of the first: even ones, one next to each corner
 /// for the angle there, and the kinks of both as far as there is room.
 struct Shares {
-    std::array<double, most_lines> t;
+    std::array<double, most_grid_lines> t;
     size_t count = 0;
 };
 
@@ -49,8 +49,8 @@ void add_kinks(const QuadSide& side, bool backwards, Shares& shares)
     const auto add_between = [&](double from, double to, double around) {
         const auto begin = std::upper_bound(kink.begin(), kink.end(), from - around),
                    end = std::lower_bound(kink.begin(), kink.end(), to - around);
-        const long most = long(most_lines / 3), step = std::max(1L, (end - begin + most - 1) / most);
-        for (auto it = begin; it < end && shares.count < most_lines; it += std::min<long>(step, end - it)) {
+        const long most = long(most_grid_lines / 3), step = std::max(1L, (end - begin + most - 1) / most);
+        for (auto it = begin; it < end && shares.count < most_grid_lines; it += std::min<long>(step, end - it)) {
             const double t = (*it + around - side.from) / (side.to - side.from);
             shares.t[shares.count++] = backwards ? 1 - t : t;
         }
@@ -84,7 +84,7 @@ Shares shares_of(const QuadSide& side, const QuadSide& opposite, int cells)
     return result;
 }
 
-using Row = std::array<Eigen::Vector2d, most_lines>;
+using Row = std::array<Eigen::Vector2d, most_grid_lines>;
 
 void sample(const Quad& quad, size_t k, const Shares& shares, bool backwards, Row& row)
 {
@@ -99,7 +99,7 @@ void sample(const Quad& quad, size_t k, const Shares& shares, bool backwards, Ro
     }
 }
 
-using Net = std::array<Row, most_lines>; ///< [j][i]: i along side 0, j along side 1
+using Net = std::array<Row, most_grid_lines>; ///< [j][i]: i along side 0, j along side 1
 
 /// Sides blended into the face [Coons 1967].
 void blend(const Quad& quad, const Shares& along, const Shares& up, Net& net)
@@ -119,7 +119,7 @@ void blend(const Quad& quad, const Shares& along, const Shares& up, Net& net)
 
 double least_of_cells(const Net& net, size_t m, size_t n)
 {
-    std::array<std::array<double, most_lines>, most_lines> along, up; // lengths of edges
+    std::array<std::array<double, most_grid_lines>, most_grid_lines> along, up; // lengths of edges
     for (size_t j = 0; j <= n; ++j)
         for (size_t i = 0; i < m; ++i)
             along[j][i] = (net[j][i + 1] - net[j][i]).norm();

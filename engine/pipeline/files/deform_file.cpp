@@ -5,6 +5,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
+#include "engine/core/vector_json.h"
 #include "engine/pipeline/files/file_members.h"
 
 namespace spia {
@@ -82,8 +83,6 @@ void read_lattice(const Json& json, const Place& place, DeformationWish& wish)
     }
     wish.lattice = std::move(lattice);
 }
-
-Json vector_json(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 } // namespace
 

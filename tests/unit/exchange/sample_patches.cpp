@@ -18,7 +18,7 @@
 namespace spia {
 namespace {
 
-constexpr double length = 600, width = 450;
+constexpr double panel_length = 600, panel_width = 450;
 
 /// Bezier heights of the panel, 4 by 4 over x and y.
 constexpr double pole[4][4] = {{0, 20, 25, 5}, {30, 70, 60, 20}, {20, 55, 75, 35}, {-5, 15, 30, 10}};
@@ -65,7 +65,7 @@ double panel_height(double x, double y)
     double height = 0;
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j)
-            height += pole[i][j] * bernstein(i, x / length) * bernstein(j, y / width);
+            height += pole[i][j] * bernstein(i, x / panel_length) * bernstein(j, y / panel_width);
     return height;
 }
 
@@ -84,10 +84,10 @@ void write_panel(const std::filesystem::path& file, int count, double gap)
     for (int j = 0; j < count; ++j)
         for (int i = 0; i < count + (j % 2); ++i) { // every second row by half a patch to the side
             const double shift = j % 2 * 0.5;
-            const double x0 = std::max(0.0, length * (i - shift) / count),
-                         x1 = std::min(length, length * (i + 1 - shift) / count), y0 = width * j / count,
-                         y1 = width * (j + 1) / count;
-            const double west = x0 > 0 ? x0 + moved() : x0, east = x1 < length ? x1 + moved() : x1,
+            const double x0 = std::max(0.0, panel_length * (i - shift) / count),
+                         x1 = std::min(panel_length, panel_length * (i + 1 - shift) / count),
+                         y0 = panel_width * j / count, y1 = panel_width * (j + 1) / count;
+            const double west = x0 > 0 ? x0 + moved() : x0, east = x1 < panel_length ? x1 + moved() : x1,
                          south = j > 0 ? y0 + moved() : y0, north = j + 1 < count ? y1 + moved() : y1;
             const double u_span = x1 - x0 + 2 * further, v_span = y1 - y0 + 2 * further;
             const auto surface =

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Eigen::Vector3d middle(const TriMesh& mesh, int face)
+Eigen::Vector3d centre_of(const TriMesh& mesh, int face)
 {
     return mesh.position(Eigen::all, mesh.triangle.col(face)).rowwise().mean();
 }
@@ -33,7 +33,7 @@ std::vector<int> faces_between(const TriMesh& mesh, double from, double to)
 {
     std::vector<int> faces;
     for (int f = 0; f < mesh.triangles(); ++f)
-        if (const double x = middle(mesh, f)[0]; x >= from && x <= to)
+        if (const double x = centre_of(mesh, f)[0]; x >= from && x <= to)
             faces.push_back(f);
     return faces;
 }
@@ -75,8 +75,9 @@ Document picked(const fs::path& part, Stage last)
     document.regions.push_back(
         {"clamp \"1\" äöü", RegionKind::binder, {0.5f, 0.25f, 0, 1}, faces_between(mesh, 0.5 * (low + high), high)});
     document.regions[0].contact = ToolContact{.force_N = 1500, .friction = 0.07};
-    document.lines = {{LineKind::drawbead, "bead", {middle(mesh, 3), middle(mesh, 9)}, 75, BeadShape{4, 2, 3, 0.1}},
-                      {LineKind::pilot, "pin", {middle(mesh, 5)}, 1, {}}};
+    document.lines = {
+        {LineKind::drawbead, "bead", {centre_of(mesh, 3), centre_of(mesh, 9)}, 75, BeadShape{4, 2, 3, 0.1}},
+        {LineKind::pilot, "pin", {centre_of(mesh, 5)}, 1, {}}};
     document.edge_restraint = 0.25;
     document.rolling = Eigen::Vector3d(1, 2, 0);
     document.limits.curve = LimitsOptions::Source::keeler_brazier;
@@ -277,8 +278,8 @@ TEST(ProjectFile, PicksFindTheirPlaceOnAPartThatWasMeshedAnew)
         const double edge = std::max(shapes::mean_edge(coarse), shapes::mean_edge(fine));
         EXPECT_NEAR(area_of(fine, after.selected), area_of(coarse, before.selected), 0.5 * border * edge) << triangles;
         for (const int f : after.selected) {
-            EXPECT_GT(middle(fine, f)[0], from - 1.5 * edge);
-            EXPECT_LT(middle(fine, f)[0], to + 1.5 * edge);
+            EXPECT_GT(centre_of(fine, f)[0], from - 1.5 * edge);
+            EXPECT_LT(centre_of(fine, f)[0], to + 1.5 * edge);
         }
         ASSERT_EQ(after.probes.size(), 1u);
         // Each one has become one near it, those of the outline and of the hole again of a

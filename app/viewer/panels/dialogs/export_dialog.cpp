@@ -72,7 +72,7 @@ void go_on_below_child(float begin, float height)
 
 /// What is held against the result, each with its way out; scrolls where it is long. @returns
 /// whether a click asked to see it
-bool list_of_doubts(Frame& frame)
+bool show_doubts(Frame& frame)
 {
     const float least = 1, most = 118 * frame.ui.scale, begin = ImGui::GetCursorPosY();
     float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("height of the list"), least);
@@ -360,7 +360,7 @@ void export_dialog(Frame& frame)
         choices.formats, [&](const std::string& format) { return holds_surface(format, choices.options); });
     const ExportVerdict verdict = export_verdict(frame.state, fit, writes_surface);
     verdict_banner(frame, verdict);
-    if (verdict.doubts > 0 && list_of_doubts(frame))
+    if (verdict.doubts > 0 && show_doubts(frame))
         ImGui::CloseCurrentPopup(); // to see the views
     ImGui::Separator();
 
