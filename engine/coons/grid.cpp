@@ -174,35 +174,26 @@ GridResult harmonic_grid(GridContext& context, int columns, int rows, AttemptRep
     return grid;
 }
 
-/// The same from a map that leaves lobes and windings their area, first with border nodes that
-/// divide the sides evenly.
+/// The same from a map that leaves lobes and windings their area; its sides slide.
 /// @param best  not sound; becomes so, or one whose border is possible
 /// @returns whether it has become another
 bool area_balanced_grid(const GridContext& context, int columns, int rows, GridResult& best, AttemptReport& report,
                         const Progress& progress)
 {
+    std::optional<HarmonicMap> opened = area_balanced_map(
+        context.harmonic->map, {.oblong = double(columns) / rows, .slide = true}, progress.part(0, 0.5));
+    if (!opened) {
+        report.reason = "the map folds";
+        return false;
+    }
     const MapLines lines = even_lines(columns, rows);
-    const auto from_map = [&](bool slide, AttemptReport& own) {
-        const Progress here = progress.part(0.5 * slide, 0.5 + 0.5 * slide);
-        std::optional<HarmonicMap> opened = area_balanced_map(
-            context.harmonic->map, {.oblong = double(columns) / rows, .slide = slide}, here.part(0, 0.5));
-        if (!opened) {
-            own.reason = "the map folds";
-            return false;
-        }
-        const SquareMap map(std::move(*opened), GridRoute::area_balanced);
-        GridResult grid = untangled_grid(map, context, lines, border_of_map(map.map, context.boundary, lines), own,
-                                         here.part(0.5, 1));
-        const bool better = is_sound(grid) || (!border_is_possible(context, best) && border_is_possible(context, grid));
-        if (better)
-            best = std::move(grid);
-        return better;
-    };
-    const auto sound = [&] { return is_sound(best); };
-    report.within =
-        try_in_order({{"sides of the map stay", {}, [&](AttemptReport& own) { return from_map(false, own); }, sound},
-                      {"sides of the map slide", {}, [&](AttemptReport& own) { return from_map(true, own); }, sound}});
-    return std::any_of(report.within.begin(), report.within.end(), [](const AttemptReport& own) { return own.won; });
+    const SquareMap map(std::move(*opened), GridRoute::area_balanced);
+    GridResult grid = untangled_grid(map, context, lines, border_of_map(map.map, context.boundary, lines), report,
+                                     progress.part(0.5, 1));
+    const bool better = is_sound(grid) || (!border_is_possible(context, best) && border_is_possible(context, grid));
+    if (better)
+        best = std::move(grid);
+    return better;
 }
 
 /// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a
