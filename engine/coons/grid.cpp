@@ -280,9 +280,9 @@ std::string_view name(GridRoute route)
     case GridRoute::coons: return "Coons patch";
     case GridRoute::smoothed_coons: return "smoothed Coons patch";
     case GridRoute::harmonic: return "harmonic map";
-    case GridRoute::area_balanced: return "opened harmonic map";
+    case GridRoute::area_balanced: return "area-balanced map";
     case GridRoute::untangled: return "untangled harmonic map";
-    case GridRoute::spiral: return "opened map, its cells unfolded to their mean shapes";
+    case GridRoute::spiral: return "spiral grid";
     }
     return "";
 }
