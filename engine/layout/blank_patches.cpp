@@ -285,7 +285,7 @@ PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOp
     fit.surface_to_mesh = judged.surface_to_mesh;
     fit.mesh_to_surface = judged.mesh_to_surface;
     fit.at_vertex = judged.at_vertex;
-    fit.patch_deviation = judged.patch_max;
+    fit.patch_deviation = judged.patch;
     fit.reached = judged.max() <= options.tolerance;
     return fit;
 }

@@ -241,7 +241,7 @@ bool refine(Strips& strips, const Layout& layout, const Fitted& fitted, const Pa
         if (!judgement.missing[size_t(p)].empty())
             order.push_back(p);
     std::stable_sort(order.begin(), order.end(),
-                     [&](int p, int q) { return judgement.patch_max[size_t(p)] > judgement.patch_max[size_t(q)]; });
+                     [&](int p, int q) { return judgement.patch[size_t(p)].max > judgement.patch[size_t(q)].max; });
     const Strips before = strips;
     Strips all = strips;
     for (const int p : order)
@@ -340,7 +340,7 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
     result.surface_to_mesh = best->surface_to_mesh;
     result.mesh_to_surface = best->mesh_to_surface;
     result.at_vertex = best->at_vertex;
-    result.patch_deviation = best->patch_max;
+    result.patch_deviation = best->patch;
     result.reached = best->max() <= options.tolerance;
     require_watertight(result.patches);
     return result;

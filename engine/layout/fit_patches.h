@@ -29,16 +29,16 @@ struct JoinsReport {
 
 /// How far patches and part are from each other, and how the fit went.
 struct PatchesFit {
-    MultiPatch patches;                  ///< watertight: shared sides are the same to the last bit
-    Layout layout;                       ///< patch by patch
-    DeviationStatistics surface_to_mesh; ///< samples of all patches to the nearest place of the
-                                         ///< part
-    DeviationStatistics mesh_to_surface; ///< vertices, edge and face middles of the part to the
-                                         ///< nearest place of the patches
-    Eigen::VectorXd at_vertex;           ///< mm, per vertex of the part; positive where the patches
-                                         ///< run on its outer side
-    std::vector<double> patch_deviation; ///< mm, per patch the largest of both ways
-    bool reached = false;                ///< the tolerance, at all samples
+    MultiPatch patches;                             ///< watertight: shared sides are the same to the last bit
+    Layout layout;                                  ///< patch by patch
+    DeviationStatistics surface_to_mesh;            ///< samples of all patches to the nearest place of the
+                                                    ///< part
+    DeviationStatistics mesh_to_surface;            ///< vertices, edge and face middles of the part to the
+                                                    ///< nearest place of the patches
+    Eigen::VectorXd at_vertex;                      ///< mm, per vertex of the part; positive where the patches
+                                                    ///< run on its outer side
+    std::vector<GreatestDeviation> patch_deviation; ///< per patch, of both ways
+    bool reached = false;                           ///< the tolerance, at all samples
     int rounds = 0;
     /// Of fit_patches() the grids of patches that were not found at once, of blank_patches() the
     /// layouts, which have these within.

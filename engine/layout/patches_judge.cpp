@@ -58,6 +58,12 @@ DeviationStatistics statistics(const std::vector<double>& distance, const std::v
     return result;
 }
 
+void keep_greater(GreatestDeviation& greatest, double distance, const Eigen::Vector3d& where)
+{
+    if (distance > greatest.max)
+        greatest = {distance, where};
+}
+
 /// Half of the way to both neighbours.
 std::vector<double> shares(const std::vector<double>& t)
 {
@@ -110,7 +116,7 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
 {
     constexpr const char* from_patches = "measuring from the patches to the part";
     PatchesJudgement result;
-    result.patch_max.assign(patches.size(), 0);
+    result.patch.resize(patches.size());
     result.missing.resize(patches.size());
     std::vector<double> distance, weight;
     std::vector<Eigen::Vector3d> position;
@@ -135,7 +141,7 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
             weight[first + size_t(i)] = at.S_u.cross(at.S_v).norm() * share_u[a] * share_v[b];
         });
         for (size_t i = 0; i < count; ++i) {
-            result.patch_max[p] = std::max(result.patch_max[p], distance[first + i]);
+            keep_greater(result.patch[p], distance[first + i], position[first + i]);
             if (distance[first + i] > tolerance_)
                 result.missing[p].push_back({u[i % u.size()], v[i / u.size()], distance[first + i]});
         }
@@ -169,7 +175,7 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
     });
     for (int i = 0; i < count; ++i) {
         const size_t p = size_t(nearest[size_t(i)]);
-        result.patch_max[p] = std::max(result.patch_max[p], back[size_t(i)]);
+        keep_greater(result.patch[p], back[size_t(i)], samples_.position.col(i));
         if (back[size_t(i)] > tolerance_)
             result.missing[p].push_back({foot[size_t(i)].u, foot[size_t(i)].v, back[size_t(i)]});
     }

@@ -13,7 +13,7 @@ namespace spia {
 struct PatchesJudgement {
     DeviationStatistics surface_to_mesh, mesh_to_surface;
     Eigen::VectorXd at_vertex;                         ///< mm, see Deviation
-    std::vector<double> patch_max;                     ///< mm, per patch, both ways
+    std::vector<GreatestDeviation> patch;              ///< per patch, both ways
     std::vector<std::vector<BeyondTolerance>> missing; ///< per patch: what is beyond the tolerance
 
     double max() const { return std::max(surface_to_mesh.max, mesh_to_surface.max); }

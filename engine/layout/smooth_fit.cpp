@@ -21,9 +21,9 @@ constexpr double no_worse = 1e-3;         // radians, by which the angle of a jo
 std::vector<char> spoilt(const PatchesJudgement& before, const Certificate& proved, const PatchesJudgement& after,
                          const Certificate& certificate, double tolerance)
 {
-    std::vector<char> result(before.patch_max.size(), 0);
+    std::vector<char> result(before.patch.size(), 0);
     for (size_t p = 0; p < result.size(); ++p)
-        result[p] = !(after.patch_max[p] <= std::max(tolerance, before.patch_max[p])) ||
+        result[p] = !(after.patch[p].max <= std::max(tolerance, before.patch[p].max)) ||
                     (certificate.patch[p].refusal && !proved.patch[p].refusal) ||
                     certificate.patch[p].least_scaled < std::min(proved.patch[p].least_scaled, well_shaped_jacobian);
     for (size_t i = 0; i < proved.interfaces.size(); ++i) {

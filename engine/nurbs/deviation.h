@@ -44,6 +44,12 @@ struct DeviationStatistics {
     Eigen::Vector3d where = Eigen::Vector3d::Zero(); ///< mm, the sample with the largest distance
 };
 
+/// Where a surface and a part are farthest from each other.
+struct GreatestDeviation {
+    double max = 0;                                  ///< mm
+    Eigen::Vector3d where = Eigen::Vector3d::Zero(); ///< mm, on either
+};
+
 /// Angles between the normals of a surface and of the faces that are nearest to it, radians,
 /// weighted with the area. All zero if there is no sample.
 struct NormalDeviation {

@@ -70,12 +70,14 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
     Json list = Json::array();
     for (size_t p = 0; p < fit.patches.patch.size(); ++p) {
         const NurbsSurface& patch = fit.patches.patch[p];
+        const GreatestDeviation& deviation = fit.patch_deviation[p];
         controls += int(patch.control.cols());
         list.push_back({{"control_points_u", patch.count_u},
                         {"control_points_v", patch.count_v},
                         {"degree_u", patch.degree_u},
                         {"degree_v", patch.degree_v},
-                        {"deviation_max_mm", fit.patch_deviation[p]}});
+                        {"deviation_max_mm", deviation.max},
+                        {"deviation_max_at_mm", {deviation.where[0], deviation.where[1], deviation.where[2]}}});
     }
     double sum = 0;
     for (const InterfaceCertificate& joint : certificate.interfaces)

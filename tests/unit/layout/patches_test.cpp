@@ -12,9 +12,11 @@
 #include "engine/exchange/cad/read_surfaces.h"
 #include "engine/exchange/cad/write_step.h"
 #include "engine/layout/fit_patches.h"
+#include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/nurbs/evaluate.h"
+#include "engine/nurbs/project.h"
 #include "tests/support/developable.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/layout/step_shell.h"
@@ -140,6 +142,24 @@ TEST_P(Plates, ArePatchesThatFillTheSheetAndShareTheirSides)
     expect_joined(fit, 1 + GetParam());
 }
 
+/// The place of each patch is on the patch or on the part, and as far from the other as is said.
+void expect_farthest_places(const TriMesh& part, const PatchesFit& fit)
+{
+    const ClosestPointSearch search(part);
+    ASSERT_EQ(fit.patch_deviation.size(), fit.patches.patch.size());
+    double greatest = 0;
+    for (size_t p = 0; p < fit.patches.patch.size(); ++p) {
+        const auto& [max, where] = fit.patch_deviation[p];
+        const double to_part = search.nearest(where).distance,
+                     to_patch = SurfaceProjection(fit.patches.patch[p]).nearest(where).distance;
+        EXPECT_NEAR(std::max(to_part, to_patch), max, 1e-9) << "patch " << p;
+        EXPECT_NEAR(std::min(to_part, to_patch), 0, 1e-9) << "patch " << p;
+        EXPECT_GT(max, 0) << "patch " << p;
+        greatest = std::max(greatest, max);
+    }
+    EXPECT_EQ(greatest, fit.deviation_max());
+}
+
 TEST(Patches, OfACylinderWithARoundHoleLieOnIt)
 {
     const shapes::QuarterCylinder shape{50, 80, 5000};
@@ -161,6 +181,7 @@ TEST(Patches, OfACylinderWithARoundHoleLieOnIt)
                 const Eigen::Vector3d p = evaluate(patch, i / 50., j / 50.).position;
                 farthest = std::max(farthest, std::abs(std::hypot(p.x(), p.z()) - shape.radius));
             }
+    expect_farthest_places(part, fit);
     EXPECT_LT(farthest, 0.1); // tolerance and sagitta of the triangles, 2 mm long: 0.01 mm
     expect_joined(fit, 2);
     double angle = 0;
@@ -193,6 +214,7 @@ TEST(Patches, AreTwoWhereACutDividesASheet)
     EXPECT_EQ(fit.patches.interfaces.size(), 1u);
     EXPECT_TRUE(fit.reached);
     expect_joined(fit, 1);
+    expect_farthest_places(part, fit);
     ASSERT_EQ(fit.attempts.size(), 1u) << "few patches are enough";
     EXPECT_TRUE(fit.attempts[0].won);
     options.cuts = {{options.corners[0], nearest(0, 0)}};

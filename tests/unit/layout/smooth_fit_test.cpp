@@ -106,8 +106,8 @@ TEST(SmoothFit, KeepsPatchesThatWouldBeWorse)
     ASSERT_TRUE(fit.joins);
     EXPECT_GT(fit.joins->kept, 0);
     int same = 0;
-    for (size_t p = 0; p < now.patch_max.size(); ++p) {
-        EXPECT_LE(after.patch_max[p], now.patch_max[p]) << "patch " << p;
+    for (size_t p = 0; p < now.patch.size(); ++p) {
+        EXPECT_LE(after.patch[p].max, now.patch[p].max) << "patch " << p;
         same += fit.patches.patch[p].control == before.patch[p].control;
     }
     EXPECT_GE(same, fit.joins->kept);
