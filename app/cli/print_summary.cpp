@@ -99,7 +99,8 @@ void print_summary(const Session& session)
     const NurbsSurface& surface = session.surface->result.surface;
     const auto& patches = session.surface->patches;
     say("surface   {}, deviation max {:.4g} mm, rms {:.4g} mm\n",
-        patches ? fmt::format("{} with {} control points", counted(figures.surface->patches, "patch", "patches"),
+        patches ? fmt::format("{} with {} and {} control points", counted(figures.surface->patches, "patch", "patches"),
+                              counted(figures.surface->singular_nodes, "singular node", "singular nodes"),
                               figures.surface->control_points)
                 : fmt::format("{} x {} control points", surface.count_u, surface.count_v),
         figures.surface->deviation_max, figures.surface->deviation_rms);

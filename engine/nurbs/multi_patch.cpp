@@ -154,6 +154,24 @@ SharedControls shared_controls(const MultiPatch& patches)
     return result;
 }
 
+int singular_nodes(const MultiPatch& patches)
+{
+    const SharedControls shared = shared_controls(patches);
+    std::vector<int> meeting(size_t(shared.count), 0); // per control point the patches with that corner
+    for (int p = 0; p < int(patches.patch.size()); ++p)
+        for (const Side side : {Side::v0, Side::v1}) {
+            const std::vector<int> along = side_controls(patches.patch[size_t(p)], side);
+            ++meeting[size_t(shared.of(p, along.front()))];
+            ++meeting[size_t(shared.of(p, along.back()))];
+        }
+    for (const PatchSide& border : outer_sides(patches)) {
+        const std::vector<int> along = side_controls(patches.patch[size_t(border.patch)], border.side);
+        meeting[size_t(shared.of(border.patch, along.front()))] = 0;
+        meeting[size_t(shared.of(border.patch, along.back()))] = 0;
+    }
+    return int(std::ranges::count_if(meeting, [](int count) { return count != 0 && count != 4; }));
+}
+
 namespace {
 
 /// The first and the last control point of a side, the smaller one first.

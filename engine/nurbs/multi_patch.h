@@ -72,4 +72,9 @@ struct SharedControls {
 /// @pre each interface joins sides with as many control points, see require_watertight()
 SharedControls shared_controls(const MultiPatch& patches);
 
+/// Inner corners at which other than four patches meet: their lines u and v cannot run on there. A
+/// layout has as many as the angles of its border ask for, at least.
+/// @pre as of shared_controls()
+int singular_nodes(const MultiPatch& patches);
+
 } // namespace spia

@@ -95,6 +95,7 @@ SurfaceFigures surface_figures(const SurfaceStage& surface)
         figures.patches = int(patches->patches.patch.size());
         figures.joints = int(patches->patches.interfaces.size());
         figures.control_points = shared_controls(patches->patches).count;
+        figures.singular_nodes = singular_nodes(patches->patches);
     } else
         figures.control_points = surface.result.surface.count_u * surface.result.surface.count_v;
     figures.deviation_max = d.max();

@@ -54,6 +54,7 @@ std::array<double, 4> side_lengths(const GridStage& grid, const Blank& blank);
 struct SurfaceFigures {
     int patches = 1, joints = 0;
     int control_points = 0; ///< those that patches share count once
+    int singular_nodes = 0; ///< see singular_nodes() of patches
     /// mm, of both ways the greater: from the surface to the part, from the part to the surface.
     double deviation_max = 0, deviation_rms = 0, deviation_p95 = 0;
 };

@@ -188,10 +188,15 @@ static std::string surface_rows(const Session& session, const ResultFigures& fig
     const bool patches = session.surface->patches != nullptr;
     const NurbsSurface& one = session.surface->result.surface;
     std::string rows =
-        row("NURBS surface", patches ? fmt::format("{}, {} without a gap, {} control points, shared ones counted once",
-                                                   counted(surface.patches, "patch", "patches"),
-                                                   counted(surface.joints, "joint", "joints"), surface.control_points)
-                                     : fmt::format("{} \u00d7 {} control points", one.count_u, one.count_v));
+        row("NURBS surface",
+            fmt::format("{}; the part has {} vertices",
+                        patches ? fmt::format("{}, {} without a gap, {}, {} control points, shared ones counted once",
+                                              counted(surface.patches, "patch", "patches"),
+                                              counted(surface.joints, "joint", "joints"),
+                                              counted(surface.singular_nodes, "singular node", "singular nodes"),
+                                              surface.control_points)
+                                : fmt::format("{} \u00d7 {} control points", one.count_u, one.count_v),
+                        session.part->mesh.vertices()));
     if (!session.surface->choice.empty())
         rows += row("Made of", session.surface->choice);
     rows += row("Surface deviation", fmt::format("at most {}, 95 % below {}, RMS {}", in.text(surface.deviation_max),

@@ -98,7 +98,8 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
             {"interface_angle_mean_deg", joints > 0 ? degrees(sum) / double(joints) : 0},
             {"joins_smoothed", std::move(smoothed)},
             {"control_points", controls},
-            {"shared_control_points", shared_controls(fit.patches).count}};
+            {"shared_control_points", shared_controls(fit.patches).count},
+            {"singular_nodes", singular_nodes(fit.patches)}};
 }
 
 } // namespace

@@ -1,8 +1,11 @@
 #include "engine/nurbs/multi_patch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/nurbs/evaluate.h"
@@ -148,6 +151,49 @@ TEST(MultiPatch, ASideThatIsAPointJoinsNothing)
     EXPECT_TRUE(joined({fan}).interfaces.empty());
     const MultiPatch two = joined({fan, patches::beyond(fan)});
     EXPECT_EQ(two.interfaces.size(), 1u);
+}
+
+NurbsSurface flat(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                  const Eigen::Vector3d& d)
+{
+    NurbsSurface patch;
+    patch.degree_u = patch.degree_v = 1;
+    patch.count_u = patch.count_v = 2;
+    patch.knots_u = patch.knots_v = {0, 0, 1, 1};
+    patch.control.resize(3, 4);
+    patch.control << a, b, d, c;
+    patch.weight.setOnes(4);
+    return patch;
+}
+
+TEST(MultiPatch, SingularNodesAreInnerCornersOfOtherThanFourPatches)
+{
+    // A polygon is cut into one patch per corner, that meet at its middle. The ring around these
+    // makes its corners inner ones of three patches, the middles of its sides of four.
+    for (const int corners : {3, 4, 5, 8}) {
+        const auto at = [&](double turns, double radius) -> Eigen::Vector3d {
+            const double angle = 2 * std::numbers::pi * turns / corners;
+            return {radius * std::cos(angle), radius * std::sin(angle), 0};
+        };
+        std::vector<NurbsSurface> parts;
+        for (int k = 0; k < corners; ++k) {
+            const Eigen::Vector3d before = at((k + corners - 1) % corners + 0.5, 1), after = at(k + 0.5, 1);
+            parts.push_back(flat(at(0, 0), before, at(k, 1.2), after));
+            parts.push_back(flat(before, 2 * before, 2 * at(k, 1.2), at(k, 1.2)));
+            parts.push_back(flat(at(k, 1.2), 2 * at(k, 1.2), 2 * after, after));
+        }
+        const MultiPatch polygon = joined(parts);
+        ASSERT_EQ(polygon.interfaces.size(), size_t(5 * corners));
+        EXPECT_EQ(singular_nodes(polygon), corners + (corners == 4 ? 0 : 1)) << corners << " corners";
+    }
+    // A closed surface: Euler's formula asks for the sum of 4 - patches at a node to be 8.
+    const auto corner = [](int k) { return Eigen::Vector3d(k & 1, (k >> 1) & 1, k >> 2); };
+    std::vector<NurbsSurface> faces;
+    for (const auto& [a, b, c, d] :
+         {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+        faces.push_back(flat(corner(a), corner(b), corner(c), corner(d)));
+    EXPECT_EQ(singular_nodes(joined(faces)), 8);
+    EXPECT_EQ(singular_nodes(joined({faces[0]})), 0);
 }
 
 } // namespace

@@ -243,12 +243,16 @@ void surface_rows(Frame& frame, const SurfaceStage& surface)
         figure(frame, "Patches", fmt::format("{}", figures.patches));
         if (patches->layout.edges > 0)
             figure(frame, "Sharp edges", fmt::format("{}", patches->layout.edges));
+        figure(frame, "Singular nodes", fmt::format("{}", figures.singular_nodes));
+        tooltip("Inner corners at which other than four patches meet: their lines cannot run on there");
         figure(frame, "Control points", fmt::format("{}", figures.control_points));
         tooltip("Control points shared by patches count once");
     } else {
         figure(frame, "Control points",
                fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
     }
+    figure(frame, "Vertices of the part", fmt::format("{}", frame.state.document.session.part->mesh.vertices()));
+    tooltip("A surface with more control points than these is heavy for analysis");
     const auto length = [&](double mm) { return length_text(mm, frame.lengths(), 3); };
     figure(frame, "Deviation, greatest", length(figures.deviation_max));
     figure(frame, "Deviation, rms", length(figures.deviation_rms));
