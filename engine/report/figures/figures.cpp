@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/flat/outline.h"
@@ -114,15 +113,30 @@ CertificateFigures certificate_figures(const Certificate& certificate)
     return figures;
 }
 
-std::vector<size_t> worst_first(const Certificate& certificate)
+std::vector<PatchFigures> patch_figures(const PatchesFit& fit, const Certificate& certificate)
 {
-    std::vector<size_t> order(certificate.patch.size());
-    std::iota(order.begin(), order.end(), size_t(0));
-    std::ranges::stable_sort(order, {}, [&](size_t p) {
-        const PatchCertificate& patch = certificate.patch[p];
-        return std::pair(!patch.refusal, patch.least_scaled);
+    std::vector<PatchFigures> figures;
+    for (size_t p = 0; p < certificate.patch.size(); ++p) {
+        const PatchCertificate& proved = certificate.patch[p];
+        figures.push_back({p, proved.refusal.has_value(), proved.least_scaled, proved.mean_scaled,
+                           fit.patch_deviation[p], int(fit.patches.patch[p].control.cols())});
+    }
+    return figures;
+}
+
+std::vector<PatchFigures> worst_first(std::vector<PatchFigures> patches, PatchMeasure measure)
+{
+    std::ranges::stable_sort(patches, {}, [&](const PatchFigures& patch) {
+        switch (measure) {
+        case PatchMeasure::number: return std::pair(true, double(patch.patch));
+        case PatchMeasure::least_scaled: return std::pair(!patch.refused, patch.least_scaled);
+        case PatchMeasure::mean_scaled: return std::pair(!patch.refused, patch.mean_scaled);
+        case PatchMeasure::deviation: return std::pair(true, -patch.deviation.max);
+        case PatchMeasure::control_points: return std::pair(true, -double(patch.control_points));
+        }
+        return std::pair(true, 0.0);
     });
-    return order;
+    return patches;
 }
 
 ResultFigures result_figures(const Session& session)

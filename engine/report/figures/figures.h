@@ -68,8 +68,22 @@ struct CertificateFigures {
 };
 CertificateFigures certificate_figures(const Certificate& certificate);
 
-/// Numbers of the patches: those that are refused, then by rising least scaled Jacobian.
-std::vector<size_t> worst_first(const Certificate& certificate);
+/// Of one of several patches.
+struct PatchFigures {
+    size_t patch = 0;     ///< from 0
+    bool refused = false; ///< not proved to be without folds
+    double least_scaled = 1, mean_scaled = 1;
+    GreatestDeviation deviation;
+    int control_points = 0; ///< with those that it shares
+};
+std::vector<PatchFigures> patch_figures(const PatchesFit& fit, const Certificate& certificate);
+
+/// What patches are ordered by.
+enum class PatchMeasure { number, least_scaled, mean_scaled, deviation, control_points };
+
+/// The worst first: those that are refused, then by rising scaled Jacobian; by falling deviation or
+/// count of control points; by rising number. Equal ones stay in their order.
+std::vector<PatchFigures> worst_first(std::vector<PatchFigures> patches, PatchMeasure measure);
 
 /// All that is told of a session that is solved at least; nothing of what it has not.
 struct ResultFigures {

@@ -75,9 +75,17 @@ TEST_F(GridByHand, TheSurfaceIsCutIntoPatches)
     hands->see_part_of_line("5 patches, because");
     hands->scroll_to("Patches, worst first", left_x, left_y);
     hands->click("Patches, worst first");
-    hands->scroll_to("2. patch", left_x, left_y, false);
-    hands->click_part("2. patch");
-    hands->see_that("where that patch is worst", [](const Json& r) { return r["spot"].is_number(); });
+    hands->scroll_to("Add lattice", left_x, left_y); // which is below the list
+    constexpr double below = 20; // pixels: the first patch below a head
+    hands->click_beside("Least", 0, below);
+    hands->see_that("where that patch is worst",
+                    [](const Json& r) { return r["spot"].is_number() && r["display"]["field"] != "deviation"; });
+    hands->keys("Escape");
+    hands->see_that("no spot", [](const Json& r) { return r["spot"].is_null(); });
+    hands->click("Off, mm");
+    hands->click_beside("Off, mm", 0, below);
+    hands->see_that("where that patch is farthest from the part",
+                    [](const Json& r) { return r["spot"].is_number() && r["display"]["field"] == "deviation"; });
     hands->keys("Escape");
     hands->see_that("no spot", [](const Json& r) { return r["spot"].is_null(); });
 }

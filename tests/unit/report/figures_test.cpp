@@ -121,11 +121,29 @@ TEST(Figures, ListTheWorstPatchFirst)
 {
     Certificate certificate;
     certificate.patch.resize(4);
-    for (size_t p = 0; p < 4; ++p)
+    PatchesFit fit;
+    fit.patches.patch.resize(4);
+    for (size_t p = 0; p < 4; ++p) {
         certificate.patch[p].least_scaled = std::array{0.7, 0.2, 0.9, 0.2}[p];
+        certificate.patch[p].mean_scaled = std::array{0.8, 0.9, 0.95, 0.7}[p];
+        fit.patch_deviation.push_back({std::array{0.1, 0.3, 0.3, 0.2}[p], Eigen::Vector3d(double(p), 0, 0)});
+        fit.patches.patch[p].control.resize(4, std::array{16, 20, 36, 36}[p]);
+    }
     certificate.patch[2].refusal = Refusal{};
-    EXPECT_EQ(worst_first(certificate), (std::vector<size_t>{2, 1, 3, 0}));
-    EXPECT_TRUE(worst_first({}).empty());
+    const auto order = [&](PatchMeasure measure) {
+        std::vector<size_t> numbers;
+        for (const PatchFigures& patch : worst_first(patch_figures(fit, certificate), measure))
+            numbers.push_back(patch.patch);
+        return numbers;
+    };
+    EXPECT_EQ(order(PatchMeasure::number), (std::vector<size_t>{0, 1, 2, 3}));
+    EXPECT_EQ(order(PatchMeasure::least_scaled), (std::vector<size_t>{2, 1, 3, 0}));
+    EXPECT_EQ(order(PatchMeasure::mean_scaled), (std::vector<size_t>{2, 3, 0, 1}));
+    EXPECT_EQ(order(PatchMeasure::deviation), (std::vector<size_t>{1, 2, 3, 0}));
+    EXPECT_EQ(order(PatchMeasure::control_points), (std::vector<size_t>{2, 3, 1, 0}));
+    const PatchFigures last = patch_figures(fit, certificate).back();
+    EXPECT_EQ(last.deviation.where.x(), 3);
+    EXPECT_EQ(last.control_points, 36);
 }
 
 TEST(Figures, AreTheSameInJson)

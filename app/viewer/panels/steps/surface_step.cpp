@@ -6,8 +6,8 @@
 
 #include "app/viewer/panels/option_fields.h"
 #include "app/viewer/panels/steps/fit_editor.h"
+#include "app/viewer/panels/steps/patch_list.h"
 #include "app/viewer/views/colour_scale.h"
-#include "engine/mesh/closest_point.h"
 #include "engine/options/surface_options.h"
 #include "engine/pipeline/shortcomings/unsuited_surface.h"
 #include "engine/report/text/sentence.h"
@@ -75,35 +75,6 @@ void certificate_rows(Frame& frame, const Certificate& certificate)
     figure(frame, "Angle at joints",
            fmt::format("up to {:.3g}\u00b0", figures.greatest_angle * 180 / std::numbers::pi));
     tooltip("Angle between the normals of two patches at their common side; 0 where they join smoothly");
-}
-
-/// A click on one shows where it is worst.
-void patch_list(Frame& frame, const Certificate& certificate)
-{
-    if (certificate.patch.size() < 2 || !ImGui::CollapsingHeader("Patches, worst first"))
-        return;
-    const std::vector<size_t> order = worst_first(certificate);
-    constexpr size_t most_rows = 8; // else it scrolls
-    const float row = ImGui::GetTextLineHeightWithSpacing();
-    ImGui::BeginChild("patches", {0, float(std::min(order.size(), most_rows)) * row});
-    ImGuiListClipper rows;
-    rows.Begin(int(order.size()));
-    while (rows.Step())
-        for (int k = rows.DisplayStart; k < rows.DisplayEnd; ++k) {
-            const size_t p = order[size_t(k)];
-            const PatchCertificate& patch = certificate.patch[p];
-            const std::string figures =
-                patch.refusal ? "may fold" : fmt::format("{:.3f}, mean {:.3f}", patch.least_scaled, patch.mean_scaled);
-            if (ImGui::Selectable(fmt::format("{}.  patch {}: {}##{}", k + 1, p + 1, figures, p).c_str())) {
-                const PatchPlace& place = patch.refusal ? patch.refusal->place : patch.least_scaled_at;
-                const ClosestPointSearch search(frame.state.document.session.part->mesh);
-                frame.actions.push(FlyTo{search.nearest(place.position).face});
-            }
-            tooltip(patch.refusal ? engine_words(frame, describe(*patch.refusal))
-                                  : "Least and mean scaled Jacobian. Click to zoom to the sharpest cell in all views; "
-                                    "Escape goes back");
-        }
-    ImGui::EndChild();
 }
 
 void picked_handles(Frame& frame, HandleKind kind)
@@ -261,7 +232,7 @@ void surface_rows(Frame& frame, const SurfaceStage& surface)
     if (!frame.state.shape_dragged) {
         const Certificate& certificate = surface_certificate(frame.state.document.session);
         certificate_rows(frame, certificate);
-        patch_list(frame, certificate);
+        patch_list(frame, surface, certificate);
     }
 }
 
