@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <numbers>
 #include <numeric>
 
 #include "engine/core/error.h"
+#include "engine/core/json_file.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/layout/simplify/simplify_layout.h"
 #include "engine/mesh/topology.h"
@@ -14,6 +16,7 @@
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/shortcomings/shortcomings.h"
 #include "engine/pipeline/shortcomings/surface_shortcomings.h"
+#include "engine/report/json/report_json.h"
 #include "tests/support/grid_surface.h"
 
 using testing::AnyOf;
@@ -71,6 +74,14 @@ TEST(BestSurface, OfARoundBlankHasItsCornersInside)
     EXPECT_EQ(session.surface->patches->patches.patch.size(), 5u);
     for (const PatchCertificate& patch : session.surface->certificate.patch)
         EXPECT_GE(patch.least_scaled, 0.5);
+    const Json json = Json::parse(report_json(session, {}, 0))["surface"];
+    EXPECT_EQ(json["singular_nodes"], 4) << "as many as a disk without corners needs";
+    double farthest = 0;
+    for (const Json& patch : json["patches"]) {
+        farthest = std::max(farthest, patch["deviation_max_mm"].get<double>());
+        EXPECT_EQ(patch["deviation_max_at_mm"].size(), 3u);
+    }
+    EXPECT_EQ(json["deviation_max_mm"], farthest);
 }
 
 /// A quarter pipe with a window, in chords that miss it by 0.5 mm; solved.
