@@ -76,7 +76,7 @@ TEST_F(GridByHand, TheSurfaceIsCutIntoPatches)
     hands->scroll_to("Patches, worst first", left_x, left_y);
     hands->click("Patches, worst first");
     hands->scroll_to("Add lattice", left_x, left_y); // which is below the list
-    constexpr double below = 20; // pixels: the first patch below a head
+    constexpr double below = 20;                     // pixels: the first patch below a head
     hands->click_beside("Least", 0, below);
     hands->see_that("where that patch is worst",
                     [](const Json& r) { return r["spot"].is_number() && r["display"]["field"] != "deviation"; });
