@@ -64,7 +64,7 @@ Json holes_json(const TrimResult& trim, const PartFile& part)
 }
 
 /// Of a layout: its patches one by one, and how smoothly they join.
-Json patches_json(const PatchesFit& fit, const Certificate& certificate)
+Json patches_json(const PatchesFit& fit, const Certificate& certificate, const SurfaceFigures& figures)
 {
     int controls = 0;
     Json list = Json::array();
@@ -98,8 +98,8 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
             {"interface_angle_mean_deg", joints > 0 ? degrees(sum) / double(joints) : 0},
             {"joins_smoothed", std::move(smoothed)},
             {"control_points", controls},
-            {"shared_control_points", shared_controls(fit.patches).count},
-            {"singular_nodes", singular_nodes(fit.patches)}};
+            {"shared_control_points", figures.control_points},
+            {"singular_nodes", figures.singular_nodes}};
 }
 
 } // namespace
@@ -123,9 +123,10 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
     const Deviation& d = stage.deviation;
     const bool with_tolerance = stage.fit.has_value();
     const NurbsSurface& surface = stage.result.surface;
+    const SurfaceFigures figures = surface_figures(stage);
     Json json;
     if (stage.patches)
-        json = patches_json(*stage.patches, stage.certificate);
+        json = patches_json(*stage.patches, stage.certificate, figures);
     else
         json = {{"control_points_u", surface.count_u},
                 {"control_points_v", surface.count_v},
@@ -133,7 +134,6 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
                 {"degree_v", surface.degree_v}};
     if (!stage.choice.empty())
         json["choice"] = stage.choice;
-    const SurfaceFigures figures = surface_figures(stage);
     json["deviation_max_mm"] = figures.deviation_max;
     json["deviation_rms_mm"] = figures.deviation_rms;
     json["deviation_p95_mm"] = figures.deviation_p95;
